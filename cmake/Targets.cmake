@@ -1,0 +1,34 @@
+# How every target of the project is compiled.
+
+function(wrapatlas_compile_options target)
+  target_compile_features(${target} PUBLIC cxx_std_20)
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion
+                         -Wno-sign-conversion -Wnon-virtual-dtor -Wold-style-cast)
+  if(WRAPATLAS_WERROR)
+    target_compile_options(${target} PRIVATE -Werror)
+  endif()
+  # The same bits on every machine: no fused multiply-add behind the source's back.
+  target_compile_options(${target} PRIVATE -ffp-contract=off)
+  if(WRAPATLAS_SANITIZE)
+    target_compile_options(${target} PRIVATE -fsanitize=${WRAPATLAS_SANITIZE}
+                           -fno-omit-frame-pointer -fno-sanitize-recover=all)
+    target_link_options(${target} PUBLIC -fsanitize=${WRAPATLAS_SANITIZE})
+  endif()
+endfunction()
+
+# A library from all sources of the named folders below src/.
+function(wrapatlas_library target)
+  set(sources "")
+  foreach(folder IN LISTS ARGN)
+    file(GLOB found CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/${folder}/*.cpp)
+    list(APPEND sources ${found})
+  endforeach()
+  add_library(${target} ${sources})
+  add_library(wrapatlas::${target} ALIAS ${target})
+  set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+  target_include_directories(${target}
+    PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>
+           $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>
+    PRIVATE ${PROJECT_SOURCE_DIR}/src)
+  wrapatlas_compile_options(${target})
+endfunction()

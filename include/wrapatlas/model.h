@@ -1,0 +1,60 @@
+// A model file: read it, look at its mesh, write it back with new UVs.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "wrapatlas/atlas.h"
+#include "wrapatlas/mesh.h"
+#include "wrapatlas/result.h"
+
+namespace wrapatlas {
+
+enum class FileFormat { obj, off, ply, stl, gltf, glb };
+
+/// By the file's ending, case ignored. Error: usage, listing the endings known.
+Result<FileFormat> format_from_path(const std::filesystem::path& path);
+
+struct LoadOptions {
+  int texcoord_set = 0;  ///< K of TEXCOORD_K (glTF)
+};
+
+/// A file in memory: its mesh, and what is needed to write it back unchanged but for the UVs.
+/// Movable, not copyable.
+class Model {
+ public:
+  /// Format-private part of a loaded file, kept to write it back.
+  struct Source {
+    virtual ~Source() = default;
+    /// The bytes of the file with the UVs of `atlas`; `path` names side files (.bin).
+    virtual Status save(const std::filesystem::path& path, const Mesh& mesh,
+                        const AtlasMesh& atlas) const = 0;
+  };
+
+  Mesh mesh;
+  FileFormat format = FileFormat::obj;
+  std::vector<std::string> remarks;  ///< what was repaired or left aside, one line each
+  bool v_points_down = false;        ///< v = 0 is the top row of the texture (glTF)
+  std::unique_ptr<Source> source;    ///< null for formats that cannot hold UVs
+};
+
+/// Reads a model. The mesh passes validate_mesh. Errors name file and line (or accessor).
+Result<Model> load_model(const std::filesystem::path& path, const LoadOptions& options = {});
+
+/// Reads a model from bytes, as load_model does; `name` stands in errors. Side files of a glTF
+/// are looked up beside `base`. For fuzzers and callers with their own file systems.
+Result<Model> load_model_bytes(std::string bytes, FileFormat format, std::string_view name,
+                               const std::filesystem::path& base, const LoadOptions& options = {});
+
+/// Writes the model with new UVs. Same format as read: everything else is kept. Another format
+/// (obj, ply, gltf, glb): positions, faces and UVs alone. Written to a temporary file beside
+/// `path` and renamed, so a failure leaves nothing half-written.
+Status save_model(const Model& model, const AtlasMesh& atlas, const std::filesystem::path& path);
+
+/// A mesh with `atlas` applied: what load_model would read back, but for rounding.
+Mesh apply_atlas(const Mesh& mesh, const AtlasMesh& atlas);
+
+}  // namespace wrapatlas

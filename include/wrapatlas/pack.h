@@ -1,0 +1,98 @@
+// Packing: one common scale, and for each chart a rotation and a translation.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "wrapatlas/charts.h"
+#include "wrapatlas/geometry.h"
+#include "wrapatlas/result.h"
+
+namespace wrapatlas {
+
+enum class Method { lprm02, swg03, zsgs04, modulo };
+
+/// Which axes of the atlas are cyclic.
+enum class Wrap { none, u, v, uv };
+inline bool wraps_u(Wrap wrap) { return wrap == Wrap::u || wrap == Wrap::uv; }
+inline bool wraps_v(Wrap wrap) { return wrap == Wrap::v || wrap == Wrap::uv; }
+
+/// When does a grid cell belong to a chart?
+enum class Coverage {
+  center,        ///< if its centre does: the paper's rule; charts may overlap by part of a cell
+  conservative,  ///< if any part of the chart, grown by half the padding, touches it: safe
+};
+
+/// Where the angles of a chart are counted from.
+enum class RotationBase {
+  input,  ///< from its UV axes as they came (the paper)
+  box,    ///< from the sides of its smallest enclosing rectangle
+};
+
+/// How far a packing has come; passed to PackOptions::progress.
+struct Progress {
+  double fraction = 0;         ///< of the work, an estimate in [0, 1]
+  double best_efficiency = 0;  ///< 0 while there is none
+};
+
+struct PackOptions {
+  Method method = Method::modulo;
+  Wrap wrap = Wrap::uv;        ///< the baselines know `none` only
+  int width = 1024;            ///< of the final texture, texels
+  int height = 1024;
+  bool search_aspect = false;  ///< try the paper's 31 ratios of the area width * height
+  double padding = 2;          ///< texels between charts, Euclidean; 0 or more
+  double margin = -1;          ///< texels to a side that does not wrap; < 0: half the padding
+  int block = 1;               ///< no two charts share a block of this many texels a side
+  int rotations = 16;          ///< angles a chart is tried at, uniform over the circle
+  RotationBase rotation_base = RotationBase::input;
+  int grid = 0;                ///< cells along the longer side of the search grid; 0: chosen
+  Coverage coverage = Coverage::conservative;
+  double start_upper = 1.0;    ///< upper end of the scale search at its start (the paper: 0.9)
+  double lambda = 1.1;         ///< penalty of outer placements (modulo)
+  bool inner = true;           ///< modulo: also try the four inner strategies
+  bool all_sides = false;      ///< zsgs04: try all four sides for every chart
+  int threads = 0;             ///< 0: as many as the machine has; never changes the result
+  std::uint64_t seed = 0;      ///< reported; the methods here draw no random numbers
+
+  /// Called now and then from any thread, one call at a time; false ends the search early with
+  /// the best packing so far.
+  std::function<bool(const Progress&)> progress;
+};
+
+/// Chart -> texel space: texel = scale * R(angle) * uv + translation.
+struct Placement {
+  double angle = 0;   ///< radians, counter-clockwise in UV axes
+  Vec2 translation;   ///< texels
+};
+
+struct Packing {
+  int width = 0, height = 0;  ///< texels; differ from the options' where the aspect was searched
+  Wrap wrap = Wrap::none;
+  double scale = 0;           ///< texels per input UV unit, common to all charts
+  std::vector<Placement> placements;  ///< one per chart, in the order given
+  double efficiency = 0;         ///< (sum of chart areas at `scale`) / (width * height)
+  double raster_efficiency = 0;  ///< covered cells / cells of the grid
+  int grid_width = 0, grid_height = 0;
+  int packings = 0;           ///< placement runs made
+  bool interrupted = false;   ///< progress asked to stop
+  double raster_seconds = 0, place_seconds = 0;  ///< summed over threads
+
+  [[nodiscard]] Similarity transform(std::size_t chart) const {
+    const Placement& p = placements[chart];
+    return Similarity::from(scale, p.angle, p.translation);
+  }
+};
+
+/// Packs all charts into one page. Promise (coverage `conservative`): any two charts, and any
+/// chart and its own image under the wrap, are at least `padding` texels apart, and `margin` from
+/// a side that does not wrap. A chart of zero extent is placed like a dot.
+/// Errors: usage (bad options), no_packing (nothing fits at any scale tried), interrupted (stopped
+/// before the first packing). No charts at all is a usage error.
+/// The same charts and options give the same bits for any number of threads.
+Result<Packing> pack(std::span<const Chart> charts, const PackOptions& options);
+
+}  // namespace wrapatlas

@@ -1,0 +1,53 @@
+// The independent exact check of a finished atlas. Shares no code with raster/ and pack/.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "wrapatlas/mesh.h"
+#include "wrapatlas/pack.h"
+#include "wrapatlas/result.h"
+
+namespace wrapatlas {
+
+struct CheckOptions {
+  int width = 1024, height = 1024;  ///< texels of the atlas
+  Wrap wrap = Wrap::none;
+  double padding = 0;               ///< texels that must lie between charts
+  double margin = 0;                ///< texels to a side that does not wrap
+  double tolerance = 1e-3;          ///< texels by which a chart may differ from a similarity copy
+  bool stacked_ok = false;          ///< charts that overlap in the reference may overlap here
+  std::size_t max_findings = 20;    ///< how many violations to describe in words
+  int threads = 0;
+};
+
+enum class Violation { overlap, gap, self_overlap, bounds, margin, missing_face, not_similar,
+                       mirrored, scale };
+
+struct Finding {
+  Violation kind;
+  std::uint32_t chart_a = kNone, chart_b = kNone;
+  std::uint32_t face_a = kNone, face_b = kNone;
+  double amount = 0;  ///< texels (overlap depth, distance), or the scale's ratio
+  std::string text;   ///< one line in words
+};
+
+struct CheckReport {
+  std::size_t charts = 0, faces = 0, faces_without_uv = 0;
+  std::size_t violations = 0;       ///< all, also those past max_findings
+  std::vector<Finding> findings;
+  std::vector<std::string> remarks; ///< defects of the input that are not the packing's fault
+  double smallest_gap = 0;          ///< texels, over all pairs closer than search reach; else reach
+  double efficiency = 0;            ///< covered area / (width * height)
+  double scale = 0;                 ///< texels per reference UV unit; 0 without a reference
+  [[nodiscard]] bool ok() const { return violations == 0; }
+};
+
+/// Checks a finished atlas by exact triangles (see docs/algorithms/validation.md). `reference`
+/// may be null: then only overlap, gap, bounds and wrap are judged. Errors: input (meshes that
+/// cannot be compared).
+Result<CheckReport> check_atlas(const Mesh& atlas, const Mesh* reference,
+                                const CheckOptions& options);
+
+}  // namespace wrapatlas

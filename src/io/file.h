@@ -1,0 +1,20 @@
+// Whole files in and out of memory.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "wrapatlas/result.h"
+
+namespace wrapatlas {
+
+/// Reads a whole file. Error: input, naming the path and the system's reason.
+Result<std::string> read_file(const std::filesystem::path& path);
+
+/// Writes to a temporary file in the same folder, flushes it to disk and renames it over `path`.
+/// On any failure (no permission, full disk) the temporary file is removed and `path` is as it
+/// was. A path that exists and is no regular file (/dev/stdout, a pipe) is written to directly.
+Status write_file(const std::filesystem::path& path, std::string_view bytes);
+
+}  // namespace wrapatlas

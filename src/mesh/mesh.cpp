@@ -1,0 +1,122 @@
+#include "wrapatlas/mesh.h"
+
+#include <fmt/format.h>
+
+#include <bit>
+#include <unordered_map>
+
+namespace wrapatlas {
+namespace {
+
+bool usable(double value) { return std::abs(value) < 1e30; }  // false for NaN as well
+
+Error bad_mesh(std::string where, std::string what, std::string remedy) {
+  return {ErrorKind::input, std::move(where), std::move(what), std::move(remedy)};
+}
+
+struct Vec3Hash {
+  std::size_t operator()(const Vec3& p) const {
+    std::uint64_t hash = 0x9e3779b97f4a7c15ULL;
+    for (const double value : {p.x, p.y, p.z}) {
+      hash ^= std::bit_cast<std::uint64_t>(value + 0.0);  // -0 + 0 is +0
+      hash *= 0xff51afd7ed558ccdULL;
+      hash ^= hash >> 32U;
+    }
+    return hash;
+  }
+};
+
+}  // namespace
+
+Status validate_mesh(const Mesh& mesh) {
+  for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+    const Vec3& p = mesh.positions[i];
+    if (!usable(p.x) || !usable(p.y) || !usable(p.z)) {
+      return bad_mesh(fmt::format("vertex {}", i), "a coordinate is not a usable number",
+                      "export the mesh again without NaN, infinite or huge values");
+    }
+  }
+  for (std::size_t i = 0; i < mesh.texcoords.size(); ++i) {
+    if (!usable(mesh.texcoords[i].x) || !usable(mesh.texcoords[i].y)) {
+      return bad_mesh(fmt::format("texture coordinate {}", i),
+                      "a coordinate is not a usable number",
+                      "export the mesh again without NaN, infinite or huge values");
+    }
+  }
+  if (mesh.face_begin.empty() || mesh.face_begin.front() != 0 ||
+      mesh.face_begin.back() != mesh.corner_position.size() ||
+      mesh.corner_texcoord.size() != mesh.corner_position.size()) {
+    return bad_mesh("mesh", "corner arrays differ in length", "pass one entry per corner in each");
+  }
+  for (std::size_t face = 0; face < mesh.face_count(); ++face) {
+    if (mesh.face_begin[face + 1] < mesh.face_begin[face] + 3) {
+      return bad_mesh(fmt::format("face {}", face), "it has fewer than three corners",
+                      "remove the face");
+    }
+  }
+  for (std::size_t c = 0; c < mesh.corner_count(); ++c) {
+    const bool position_ok = mesh.corner_position[c] < mesh.positions.size();
+    const bool texcoord_ok =
+        mesh.corner_texcoord[c] == kNone || mesh.corner_texcoord[c] < mesh.texcoords.size();
+    if (!position_ok || !texcoord_ok) {
+      return bad_mesh(fmt::format("corner {}", c),
+                      fmt::format("it refers to {} {} of {}", position_ok ? "UV" : "vertex",
+                                  position_ok ? mesh.corner_texcoord[c] : mesh.corner_position[c],
+                                  position_ok ? mesh.texcoords.size() : mesh.positions.size()),
+                      "export the mesh again");
+    }
+  }
+  return Done{};
+}
+
+std::vector<std::uint32_t> weld_positions(std::span<const Vec3> positions) {
+  std::unordered_map<Vec3, std::uint32_t, Vec3Hash> first;
+  first.reserve(positions.size());
+  std::vector<std::uint32_t> welded(positions.size());
+  for (std::uint32_t i = 0; i < positions.size(); ++i) {
+    welded[i] = first.try_emplace(positions[i], i).first->second;
+  }
+  return welded;
+}
+
+void triangulate_polygon(std::span<const Vec2> points,
+                         std::vector<std::array<std::uint32_t, 3>>& triangles) {
+  const auto count = static_cast<std::uint32_t>(points.size());
+  if (count == 3) {
+    triangles.push_back({0, 1, 2});
+    return;
+  }
+  double area = 0;
+  for (std::uint32_t i = 0; i < count; ++i) area += cross(points[i], points[(i + 1) % count]);
+  const double sign = area < 0 ? -1 : 1;
+
+  std::vector<std::uint32_t> ring(count);
+  for (std::uint32_t i = 0; i < count; ++i) ring[i] = i;
+  const auto turn = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+    return sign * signed_area2(points[a], points[b], points[c]);
+  };
+  const auto is_ear = [&](std::size_t i) {
+    const std::size_t size = ring.size();
+    const std::uint32_t a = ring[(i + size - 1) % size], b = ring[i], c = ring[(i + 1) % size];
+    if (turn(a, b, c) <= 0) return false;
+    for (const std::uint32_t p : ring) {
+      if (p == a || p == b || p == c) continue;
+      if (points[p] == points[a] || points[p] == points[b] || points[p] == points[c]) continue;
+      if (turn(a, b, p) >= 0 && turn(b, c, p) >= 0 && turn(c, a, p) >= 0) return false;
+    }
+    return true;
+  };
+  while (ring.size() > 3) {
+    std::size_t ear = 0;
+    while (ear < ring.size() && !is_ear(ear)) ++ear;
+    if (ear == ring.size()) break;  // degenerate or self-crossing: fan the rest
+    const std::size_t size = ring.size();
+    triangles.push_back({ring[(ear + size - 1) % size], ring[ear], ring[(ear + 1) % size]});
+    ring.erase(ring.begin() + static_cast<std::ptrdiff_t>(ear));
+  }
+  for (std::size_t i = 1; i + 1 < ring.size(); ++i) {
+    triangles.push_back({ring[0], ring[i], ring[i + 1]});
+  }
+}
+
+}  // namespace wrapatlas

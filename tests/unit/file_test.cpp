@@ -1,0 +1,57 @@
+#include "io/file.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+namespace wrapatlas {
+namespace {
+
+namespace fs = std::filesystem;
+
+class FileTest : public ::testing::Test {
+ protected:
+  FileTest() : folder_(fs::path(::testing::TempDir()) / "wrapatlas_file_test") {
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+  }
+  ~FileTest() override { fs::remove_all(folder_); }
+  fs::path folder_;
+};
+
+TEST_F(FileTest, ReadsWhatWasWritten) {
+  const std::string bytes("a\0b\r\n", 5);
+  ASSERT_TRUE(write_file(folder_ / "x", bytes));
+  auto read = read_file(folder_ / "x");
+  ASSERT_TRUE(read);
+  EXPECT_EQ(*read, bytes);
+}
+
+TEST_F(FileTest, EmptyFile) {
+  ASSERT_TRUE(write_file(folder_ / "x", ""));
+  auto read = read_file(folder_ / "x");
+  ASSERT_TRUE(read);
+  EXPECT_TRUE(read->empty());
+}
+
+TEST_F(FileTest, MissingFolderLeavesNothing) {
+  const Status status = write_file(folder_ / "no" / "x", "abc");
+  ASSERT_FALSE(status);
+  EXPECT_EQ(status.error().kind, ErrorKind::output);
+  EXPECT_TRUE(fs::is_empty(folder_));
+}
+
+TEST_F(FileTest, FullDiskIsReported) {
+  const Status status = write_file("/dev/full", "abc");
+  ASSERT_FALSE(status);
+  EXPECT_EQ(status.error().kind, ErrorKind::output);
+}
+
+TEST_F(FileTest, FolderIsNotAFile) {
+  const auto read = read_file(folder_);
+  ASSERT_FALSE(read);
+  EXPECT_EQ(read.error().kind, ErrorKind::input);
+}
+
+}  // namespace
+}  // namespace wrapatlas

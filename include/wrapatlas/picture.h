@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -13,10 +14,10 @@
 namespace wrapatlas {
 
 struct PictureOptions {
-  int size = 1024;       ///< pixels along the longer side of one atlas tile
-  bool ids = true;       ///< chart numbers
+  int size = 1024;  ///< pixels along the longer side of one atlas tile; 16 to 8192
+  bool ids = true;  ///< chart numbers
   bool outlines = true;
-  bool tile2x2 = false;  ///< draw the atlas four times, to show how it wraps
+  bool tile2x2 = false;  ///< draw the atlas twice along each axis that wraps
   bool v_points_down = false;
 };
 
@@ -27,17 +28,24 @@ struct Image {
 };
 
 /// Charts filled with distinct colours, parts that crossed the border hatched, on a dark ground.
+/// The image is exactly the tile (or tiles). Sides that wrap are framed by a dashed line, others by
+/// a whole one. Precondition: one placement per chart. O(pixels + outline edges * their height).
 Image draw_atlas(std::span<const Chart> charts, const Packing& packing,
                  const PictureOptions& options = {});
 
-/// The same as an SVG document.
+/// The same as an SVG document, one unit a pixel of draw_atlas.
 std::string draw_atlas_svg(std::span<const Chart> charts, const Packing& packing,
                            const PictureOptions& options = {});
 
 /// Draws to a file, PNG or SVG by its ending. Written to a temporary file, then renamed.
+/// Errors: usage (another ending), output.
 Status save_atlas_picture(const std::filesystem::path& path, std::span<const Chart> charts,
                           const Packing& packing, const PictureOptions& options = {});
 
+/// Images in a row, their middles on one line, `gap` pixels of ground between and around them.
+Image side_by_side(std::span<const Image> images, int gap);
+
+/// Errors: output (an image without pixels, or a file that cannot be written).
 Status save_png(const std::filesystem::path& path, const Image& image);
 
 }  // namespace wrapatlas

@@ -1,0 +1,58 @@
+#include <spng.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cstdlib>
+#include <memory>
+
+#include "io/file.h"
+#include "wrapatlas/picture.h"
+
+namespace wrapatlas {
+namespace {
+
+Error png_error(const std::filesystem::path& path, std::string what) {
+  return {ErrorKind::output, path.string(), std::move(what), "draw it at another size"};
+}
+
+}  // namespace
+
+Status save_png(const std::filesystem::path& path, const Image& image) {
+  const std::size_t expected =
+      std::size_t{3} * std::max(0, image.width) * std::max(0, image.height);
+  if (expected == 0 || image.rgb.size() != expected) {
+    return png_error(path, "the image has no pixels, or not as many as its size says");
+  }
+  const std::unique_ptr<spng_ctx, decltype(&spng_ctx_free)> context(spng_ctx_new(SPNG_CTX_ENCODER),
+                                                                    &spng_ctx_free);
+  if (!context) return png_error(path, "out of memory");
+  spng_ihdr header{};
+  header.width = static_cast<std::uint32_t>(image.width);
+  header.height = static_cast<std::uint32_t>(image.height);
+  header.color_type = SPNG_COLOR_TYPE_TRUECOLOR;
+  header.bit_depth = 8;
+  int failure = spng_set_option(context.get(), SPNG_ENCODE_TO_BUFFER, 1);
+  if (failure == 0) failure = spng_set_ihdr(context.get(), &header);
+  if (failure == 0) {
+    failure = spng_encode_image(context.get(), image.rgb.data(), image.rgb.size(), SPNG_FMT_PNG,
+                                SPNG_ENCODE_FINALIZE);
+  }
+  std::size_t size = 0;
+  const std::unique_ptr<void, decltype(&std::free)> bytes(
+      failure == 0 ? spng_get_png_buffer(context.get(), &size, &failure) : nullptr, &std::free);
+  if (!bytes) return png_error(path, std::string("cannot encode PNG: ") + spng_strerror(failure));
+  return write_file(path, {static_cast<const char*>(bytes.get()), size});
+}
+
+Status save_atlas_picture(const std::filesystem::path& path, std::span<const Chart> charts,
+                          const Packing& packing, const PictureOptions& options) {
+  std::string ending = path.extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (ending == ".svg") return write_file(path, draw_atlas_svg(charts, packing, options));
+  if (ending == ".png") return save_png(path, draw_atlas(charts, packing, options));
+  return Error{ErrorKind::usage, path.string(), "pictures are PNG or SVG",
+               "end the name in .png or .svg"};
+}
+
+}  // namespace wrapatlas

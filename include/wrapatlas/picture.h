@@ -13,8 +13,8 @@
 namespace wrapatlas {
 
 struct PictureOptions {
-  int size = 1024;       ///< pixels along the longer side of one atlas tile
-  bool ids = true;       ///< chart numbers
+  int size = 1024;  ///< pixels along the longer side of one atlas tile
+  bool ids = true;  ///< chart numbers
   bool outlines = true;
   bool tile2x2 = false;  ///< draw the atlas four times, to show how it wraps
   bool v_points_down = false;

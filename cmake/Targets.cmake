@@ -12,6 +12,7 @@ function(wrapatlas_compile_options target)
   if(WRAPATLAS_SANITIZE)
     target_compile_options(${target} PRIVATE -fsanitize=${WRAPATLAS_SANITIZE}
                            -fno-omit-frame-pointer -fno-sanitize-recover=all)
+    target_compile_definitions(${target} PRIVATE _GLIBCXX_ASSERTIONS)
     target_link_options(${target} PUBLIC -fsanitize=${WRAPATLAS_SANITIZE})
   endif()
 endfunction()

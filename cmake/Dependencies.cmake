@@ -1,27 +1,37 @@
 # Every library the project uses, with the reason for it. Debian packages; `./dev setup` installs
 # them. Licences in brackets.
 #
-#   fmt            core   numbers to text and error lines, as std::format is not in g++ 12  [MIT]
-#   nlohmann-json  io     glTF's JSON, with unknown members kept in their order, and --json [MIT]
-#   libspng        io     PNG out                                                          [BSD-2]
-#   CLI11          cli    command line                                                     [BSD-3]
-#   GoogleTest     tests                                                                   [BSD-3]
-#   GoogleBenchmark bench                                                                  [Apache-2]
-find_package(Threads REQUIRED)
-find_package(fmt REQUIRED)
-find_package(nlohmann_json 3.10 REQUIRED)
+#   fmt             core   numbers to text and error lines, as std::format is not in g++ 12   [MIT]
+#   nlohmann-json   io     glTF's JSON, with unknown members kept in their order, and --json  [MIT]
+#   libspng         io     PNG out                                                          [BSD-2]
+#   CLI11           cli    command line                                                     [BSD-3]
+#   GoogleTest      tests                                                                   [BSD-3]
+#   GoogleBenchmark bench                                                              [Apache-2.0]
 
-find_package(PkgConfig REQUIRED)
-pkg_check_modules(SPNG REQUIRED IMPORTED_TARGET spng)
-add_library(wrapatlas_spng INTERFACE)
-target_link_libraries(wrapatlas_spng INTERFACE PkgConfig::SPNG)
+# A project that adds this one by add_subdirectory links our static libraries, so it must see the
+# targets that they link to; one that has such a target already keeps its own.
+macro(wrapatlas_find target package)
+  if(NOT TARGET ${target})
+    find_package(${package} ${ARGN} REQUIRED)
+    set_target_properties(${target} PROPERTIES IMPORTED_GLOBAL TRUE)
+  endif()
+endmacro()
+
+wrapatlas_find(Threads::Threads Threads)
+wrapatlas_find(fmt::fmt fmt)
+wrapatlas_find(nlohmann_json::nlohmann_json nlohmann_json 3.10)
+
+if(NOT TARGET PkgConfig::WRAPATLAS_SPNG)
+  find_package(PkgConfig REQUIRED)
+  pkg_check_modules(WRAPATLAS_SPNG REQUIRED IMPORTED_TARGET GLOBAL spng)
+endif()
 
 if(WRAPATLAS_CLI)
-  find_package(CLI11 REQUIRED)
+  wrapatlas_find(CLI11::CLI11 CLI11)
 endif()
 if(WRAPATLAS_TESTS)
-  find_package(GTest REQUIRED)
+  wrapatlas_find(GTest::gtest GTest)
 endif()
 if(WRAPATLAS_BENCH)
-  find_package(benchmark REQUIRED)
+  wrapatlas_find(benchmark::benchmark benchmark)
 endif()

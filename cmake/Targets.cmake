@@ -12,11 +12,12 @@ function(wrapatlas_compile_options target)
   if(WRAPATLAS_SANITIZE)
     target_compile_options(${target} PRIVATE -fsanitize=${WRAPATLAS_SANITIZE}
                            -fno-omit-frame-pointer -fno-sanitize-recover=all)
+    target_compile_definitions(${target} PRIVATE _GLIBCXX_ASSERTIONS)
     target_link_options(${target} PUBLIC -fsanitize=${WRAPATLAS_SANITIZE})
   endif()
 endfunction()
 
-# A library from all sources of the named folders below src/.
+# A library from all sources of the named folders below src/. wrapatlas_x is wrapatlas::x outside.
 function(wrapatlas_library target)
   set(sources "")
   foreach(folder IN LISTS ARGN)
@@ -24,8 +25,11 @@ function(wrapatlas_library target)
     list(APPEND sources ${found})
   endforeach()
   add_library(${target} ${sources})
-  add_library(wrapatlas::${target} ALIAS ${target})
-  set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+  string(REPLACE wrapatlas_ "" name ${target})
+  add_library(wrapatlas::${name} ALIAS ${target})
+  set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON EXPORT_NAME ${name}
+                        VERSION ${PROJECT_VERSION}
+                        SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
   target_include_directories(${target}
     PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>
            $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>

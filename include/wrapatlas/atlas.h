@@ -31,8 +31,8 @@ struct AtlasMesh {
   std::vector<std::uint32_t> corner_cut;       ///< per corner: index into cut_points, or kNone
   std::vector<std::uint32_t> corner_texcoord;  ///< per corner: into texcoords; kNone without UVs
   std::vector<CutPoint> cut_points;
-  std::uint32_t cut_position_count = 0;        ///< cut_points[i].position < this
-  Wrap wrap = Wrap::none;                      ///< do UVs leave [0,1], so that samplers must repeat
+  std::uint32_t cut_position_count = 0;  ///< cut_points[i].position < this
+  Wrap wrap = Wrap::none;                ///< do UVs leave [0,1], so that samplers must repeat
 
   [[nodiscard]] std::size_t face_count() const { return face_begin.size() - 1; }
   [[nodiscard]] bool is_cut() const { return !cut_points.empty(); }

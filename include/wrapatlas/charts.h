@@ -30,9 +30,9 @@ struct Chart {
   /// Triangles whose winding differs from the majority's. The chart covers exactly the points of
   /// non-zero winding number of `outline`, and these triangles.
   std::vector<std::uint32_t> against_grain;
-  double area = 0;       ///< covered area (overlap within the chart counts once), input units^2
-  double overlap = 0;    ///< area covered more than once, counted once less each time
-  double max_radius = 0; ///< largest distance of a point from the box centre
+  double area = 0;        ///< covered area (overlap within the chart counts once), input units^2
+  double overlap = 0;     ///< area covered more than once, counted once less each time
+  double max_radius = 0;  ///< largest distance of a point from the box centre
   Box2 box;
 };
 
@@ -55,9 +55,9 @@ struct ChartSet {
   std::vector<Chart> charts;
   std::vector<std::uint32_t> face_chart;    ///< per face of the mesh; kNone for a face without UVs
   std::vector<std::uint32_t> corner_point;  ///< per corner: index into its chart's points; or kNone
-  std::uint32_t stacked = 0;        ///< charts that overlap another chart of the input
+  std::uint32_t stacked = 0;                ///< charts that overlap another chart of the input
   std::uint32_t self_overlapping = 0;
-  std::uint32_t degenerate = 0;     ///< charts of zero area
+  std::uint32_t degenerate = 0;  ///< charts of zero area
   std::uint32_t faces_without_uv = 0;
 
   [[nodiscard]] double total_area() const;

@@ -16,10 +16,10 @@ namespace wrapatlas {
 /// [face_begin[f], face_begin[f + 1]); every per-corner array is indexed by it.
 struct Mesh {
   std::vector<Vec3> positions;
-  std::vector<Vec2> texcoords;                  ///< input UV units, raw values of the file
-  std::vector<std::uint32_t> face_begin{0};     ///< face_count() + 1 entries, first 0
-  std::vector<std::uint32_t> corner_position;   ///< index into positions
-  std::vector<std::uint32_t> corner_texcoord;   ///< index into texcoords, or kNone
+  std::vector<Vec2> texcoords;                 ///< input UV units, raw values of the file
+  std::vector<std::uint32_t> face_begin{0};    ///< face_count() + 1 entries, first 0
+  std::vector<std::uint32_t> corner_position;  ///< index into positions
+  std::vector<std::uint32_t> corner_texcoord;  ///< index into texcoords, or kNone
 
   [[nodiscard]] std::size_t face_count() const { return face_begin.size() - 1; }
   [[nodiscard]] std::size_t corner_count() const { return corner_position.size(); }

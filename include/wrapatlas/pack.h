@@ -40,8 +40,8 @@ struct Progress {
 
 struct PackOptions {
   Method method = Method::modulo;
-  Wrap wrap = Wrap::uv;        ///< the baselines know `none` only
-  int width = 1024;            ///< of the final texture, texels
+  Wrap wrap = Wrap::uv;  ///< the baselines know `none` only
+  int width = 1024;      ///< of the final texture, texels
   int height = 1024;
   bool search_aspect = false;  ///< try the paper's 31 ratios of the area width * height
   double padding = 2;          ///< texels between charts, Euclidean; 0 or more
@@ -49,14 +49,14 @@ struct PackOptions {
   int block = 1;               ///< no two charts share a block of this many texels a side
   int rotations = 16;          ///< angles a chart is tried at, uniform over the circle
   RotationBase rotation_base = RotationBase::input;
-  int grid = 0;                ///< cells along the longer side of the search grid; 0: chosen
+  int grid = 0;  ///< cells along the longer side of the search grid; 0: chosen
   Coverage coverage = Coverage::conservative;
-  double start_upper = 1.0;    ///< upper end of the scale search at its start (the paper: 0.9)
-  double lambda = 1.1;         ///< penalty of outer placements (modulo)
-  bool inner = true;           ///< modulo: also try the four inner strategies
-  bool all_sides = false;      ///< zsgs04: try all four sides for every chart
-  int threads = 0;             ///< 0: as many as the machine has; never changes the result
-  std::uint64_t seed = 0;      ///< reported; the methods here draw no random numbers
+  double start_upper = 1.0;  ///< upper end of the scale search at its start (the paper: 0.9)
+  double lambda = 1.1;       ///< penalty of outer placements (modulo)
+  bool inner = true;         ///< modulo: also try the four inner strategies
+  bool all_sides = false;    ///< zsgs04: try all four sides for every chart
+  int threads = 0;           ///< 0: as many as the machine has; never changes the result
+  std::uint64_t seed = 0;    ///< reported; the methods here draw no random numbers
 
   /// Called now and then from any thread, one call at a time; false ends the search early with
   /// the best packing so far.
@@ -65,20 +65,20 @@ struct PackOptions {
 
 /// Chart -> texel space: texel = scale * R(angle) * uv + translation.
 struct Placement {
-  double angle = 0;   ///< radians, counter-clockwise in UV axes
-  Vec2 translation;   ///< texels
+  double angle = 0;  ///< radians, counter-clockwise in UV axes
+  Vec2 translation;  ///< texels
 };
 
 struct Packing {
   int width = 0, height = 0;  ///< texels; differ from the options' where the aspect was searched
   Wrap wrap = Wrap::none;
-  double scale = 0;           ///< texels per input UV unit, common to all charts
+  double scale = 0;                   ///< texels per input UV unit, common to all charts
   std::vector<Placement> placements;  ///< one per chart, in the order given
-  double efficiency = 0;         ///< (sum of chart areas at `scale`) / (width * height)
-  double raster_efficiency = 0;  ///< covered cells / cells of the grid
+  double efficiency = 0;              ///< (sum of chart areas at `scale`) / (width * height)
+  double raster_efficiency = 0;       ///< covered cells / cells of the grid
   int grid_width = 0, grid_height = 0;
-  int packings = 0;           ///< placement runs made
-  bool interrupted = false;   ///< progress asked to stop
+  int packings = 0;                              ///< placement runs made
+  bool interrupted = false;                      ///< progress asked to stop
   double raster_seconds = 0, place_seconds = 0;  ///< summed over threads
 
   [[nodiscard]] Similarity transform(std::size_t chart) const {

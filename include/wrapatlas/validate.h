@@ -14,16 +14,25 @@ namespace wrapatlas {
 struct CheckOptions {
   int width = 1024, height = 1024;  ///< texels of the atlas
   Wrap wrap = Wrap::none;
-  double padding = 0;               ///< texels that must lie between charts
-  double margin = 0;                ///< texels to a side that does not wrap
-  double tolerance = 1e-3;          ///< texels by which a chart may differ from a similarity copy
-  bool stacked_ok = false;          ///< charts that overlap in the reference may overlap here
-  std::size_t max_findings = 20;    ///< how many violations to describe in words
+  double padding = 0;             ///< texels that must lie between charts
+  double margin = 0;              ///< texels to a side that does not wrap
+  double tolerance = 1e-3;        ///< texels by which a chart may differ from a similarity copy
+  bool stacked_ok = false;        ///< charts that overlap in the reference may overlap here
+  std::size_t max_findings = 20;  ///< how many violations to describe in words
   int threads = 0;
 };
 
-enum class Violation { overlap, gap, self_overlap, bounds, margin, missing_face, not_similar,
-                       mirrored, scale };
+enum class Violation {
+  overlap,
+  gap,
+  self_overlap,
+  bounds,
+  margin,
+  missing_face,
+  not_similar,
+  mirrored,
+  scale
+};
 
 struct Finding {
   Violation kind;
@@ -35,12 +44,12 @@ struct Finding {
 
 struct CheckReport {
   std::size_t charts = 0, faces = 0, faces_without_uv = 0;
-  std::size_t violations = 0;       ///< all, also those past max_findings
+  std::size_t violations = 0;  ///< all, also those past max_findings
   std::vector<Finding> findings;
-  std::vector<std::string> remarks; ///< defects of the input that are not the packing's fault
-  double smallest_gap = 0;          ///< texels, over all pairs closer than search reach; else reach
-  double efficiency = 0;            ///< covered area / (width * height)
-  double scale = 0;                 ///< texels per reference UV unit; 0 without a reference
+  std::vector<std::string> remarks;  ///< defects of the input that are not the packing's fault
+  double smallest_gap = 0;  ///< texels, over all pairs closer than search reach; else reach
+  double efficiency = 0;    ///< covered area / (width * height)
+  double scale = 0;         ///< texels per reference UV unit; 0 without a reference
   [[nodiscard]] bool ok() const { return violations == 0; }
 };
 

@@ -21,7 +21,8 @@ Status write_all(int descriptor, std::string_view bytes, const std::filesystem::
     const ssize_t count = ::write(descriptor, bytes.data(), bytes.size());
     if (count < 0) {
       if (errno == EINTR) continue;
-      return system_error(ErrorKind::output, path, "cannot write", "free disk space or write elsewhere");
+      return system_error(ErrorKind::output, path, "cannot write",
+                          "free disk space or write elsewhere");
     }
     bytes.remove_prefix(static_cast<std::size_t>(count));
   }
@@ -33,7 +34,8 @@ Status write_all(int descriptor, std::string_view bytes, const std::filesystem::
 Result<std::string> read_file(const std::filesystem::path& path) {
   const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (descriptor < 0) {
-    return system_error(ErrorKind::input, path, "cannot open", "check the path and its permissions");
+    return system_error(ErrorKind::input, path, "cannot open",
+                        "check the path and its permissions");
   }
   struct stat info {};
   std::string bytes;
@@ -63,8 +65,8 @@ Result<std::string> read_file(const std::filesystem::path& path) {
 Status write_file(const std::filesystem::path& path, std::string_view bytes) {
   std::error_code ignored;
   const auto kind = std::filesystem::status(path, ignored).type();
-  const bool in_place = kind != std::filesystem::file_type::not_found &&
-                        kind != std::filesystem::file_type::regular;
+  const bool in_place =
+      kind != std::filesystem::file_type::not_found && kind != std::filesystem::file_type::regular;
   std::string temporary = path.string();
   int descriptor = -1;
   if (in_place) {
@@ -84,8 +86,7 @@ Status write_file(const std::filesystem::path& path, std::string_view bytes) {
   }
   const mode_t mask = ::umask(0);
   ::umask(mask);
-  const bool kept = written && ::fchmod(descriptor, 0666 & ~mask) == 0 &&
-                    ::fsync(descriptor) == 0;
+  const bool kept = written && ::fchmod(descriptor, 0666 & ~mask) == 0 && ::fsync(descriptor) == 0;
   const int keep_errno = errno;
   const bool closed = ::close(descriptor) == 0;
   if (kept && closed && ::rename(temporary.c_str(), path.c_str()) == 0) return Done{};

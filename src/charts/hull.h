@@ -1,0 +1,21 @@
+// Convex hulls and the two directions that packers read off them.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "wrapatlas/geometry.h"
+
+namespace wrapatlas {
+
+/// Corners of the convex hull, counter-clockwise, no three on a line. O(n log n).
+std::vector<Vec2> convex_hull(std::span<const Vec2> points);
+
+/// Direction (radians, in (-pi, pi]) of the longest distance between two corners of a hull.
+double diameter_direction(std::span<const Vec2> hull);
+
+/// Direction (radians) of a side of the smallest-area rectangle around a hull. Such a rectangle
+/// has a side along an edge of the hull (Freeman & Shapira 1975).
+double smallest_box_direction(std::span<const Vec2> hull);
+
+}  // namespace wrapatlas

@@ -1,0 +1,90 @@
+#include "pack/board.h"
+
+#include <algorithm>
+
+namespace wrapatlas {
+namespace {
+
+/// Calls visit(word index, bits) for the words of a cyclic lane of `length` bits that the source
+/// bits, shifted by `shift` (0 <= shift < length), fall on; stops when visit returns true.
+template <typename Visit>
+bool visit_shifted(const std::uint64_t* source, int source_length, int shift, int length,
+                   Visit visit) {
+  for (int word = 0, left = source_length; left > 0; ++word, left -= kWordBits) {
+    std::uint64_t bits = source[word];
+    int position = (shift + word * kWordBits) % length;
+    int count = std::min(left, kWordBits);
+    while (bits != 0 && count > 0) {
+      const int offset = position % kWordBits;
+      const int room = std::min({count, kWordBits - offset, length - position});
+      const std::uint64_t mask = ~std::uint64_t{0} >> (kWordBits - room);
+      if (visit(position / kWordBits, (bits & mask) << offset)) return true;
+      bits = room < kWordBits ? bits >> room : 0;
+      count -= room;
+      position += room;
+      if (position == length) position = 0;
+    }
+  }
+  return false;
+}
+
+void add_lanes(BitLanes& board, const BitLanes& chart, int lane, int shift) {
+  for (int i = 0; i < chart.lanes; ++i) {
+    std::uint64_t* target = board.lane((lane + i) % board.lanes);
+    visit_shifted(chart.lane(i), chart.length, shift, board.length,
+                  [target](int word, std::uint64_t bits) {
+                    target[word] |= bits;
+                    return false;
+                  });
+  }
+}
+
+}  // namespace
+
+Board::Board(int width, int height, Wrap wrap)
+    : wrap_(wrap), columns_(width, height), rows_(height, width) {}
+
+bool Board::admits(const ChartRaster& chart) const {
+  if (chart.width == 0) return false;
+  if (!wraps_x() && chart.width > width()) return false;
+  if (!wraps_y() && chart.height > height()) return false;
+  if (chart.width <= width() && chart.height <= height()) return true;
+  if (chart.cells > static_cast<std::int64_t>(width()) * height()) return false;
+  BitLanes folded(height(), width());
+  for (int y = 0; y < chart.height; ++y) {
+    std::uint64_t* target = folded.lane(y % height());
+    const bool twice = visit_shifted(chart.rows.bits.lane(y), chart.width, 0, width(),
+                                     [target](int word, std::uint64_t bits) {
+                                       if ((target[word] & bits) != 0) return true;
+                                       target[word] |= bits;
+                                       return false;
+                                     });
+    if (twice) return false;
+  }
+  return true;
+}
+
+bool Board::collides(const ChartRaster& chart, int x, int y) const {
+  if (!wraps_x() && x + chart.width > width()) return true;
+  if (!wraps_y() && y + chart.height > height()) return true;
+  for (int i = 0; i < chart.height; ++i) {
+    const std::uint64_t* lane = rows_.lane((y + i) % height());
+    const bool shared =
+        visit_shifted(chart.rows.bits.lane(i), chart.width, x, width(),
+                      [lane](int word, std::uint64_t bits) { return (lane[word] & bits) != 0; });
+    if (shared) return true;
+  }
+  return false;
+}
+
+void Board::add(const ChartRaster& chart, int x, int y) {
+  add_lanes(rows_, chart.rows.bits, y, x);
+  add_lanes(columns_, chart.columns.bits, x, y);
+}
+
+void Board::clear() {
+  std::fill(columns_.bits.begin(), columns_.bits.end(), 0);
+  std::fill(rows_.bits.begin(), rows_.bits.end(), 0);
+}
+
+}  // namespace wrapatlas

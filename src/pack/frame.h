@@ -1,0 +1,31 @@
+// The search grid and how it lies on the texture.
+#pragma once
+
+#include "wrapatlas/geometry.h"
+#include "wrapatlas/pack.h"
+#include "wrapatlas/result.h"
+
+namespace wrapatlas {
+
+/// Grid cell (i, j) is the texel rectangle [origin + cell * i, origin + cell * (i + 1)), per axis.
+/// On axes that wrap the cells tile the texture's length exactly. On others the grid is inset so
+/// that a chart grown by half the padding, kept inside it, keeps its margin.
+struct Frame {
+  int texture_width = 0, texture_height = 0;  ///< texels
+  int width = 0, height = 0;                  ///< cells
+  Vec2 cell;                                  ///< texels per cell
+  Vec2 origin;                                ///< texels
+  double growth = 0;                          ///< cells by which charts are grown
+
+  [[nodiscard]] double texels() const { return double(texture_width) * texture_height; }
+};
+
+/// Lays a grid over a texture. `cell` is the wished size in texels; it is rounded to what the wrap
+/// and the block size allow. Errors: usage.
+Result<Frame> make_frame(int texture_width, int texture_height, double cell,
+                         const PackOptions& options);
+
+/// Texels of distance added to the padding so that it still holds after UVs are rounded to float.
+inline constexpr double kPaddingSlack = 1.0 / 128;
+
+}  // namespace wrapatlas

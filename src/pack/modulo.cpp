@@ -1,0 +1,238 @@
+// The packer of T. Nöll, D. Stricker: "Efficient Packing of Arbitrary Shaped Charts for Automatic
+// Texture Atlas Generation", EGSR 2011, section 2.2.
+//
+// Eight placement strategies, {outer, inner} x {horizontal, vertical} x {normal, mirrored}, for
+// each of a chart's rotations; the valid placement of least wasted space is taken.
+//
+// How this file reads the paper, where it is open:
+// - All eight strategies become one: per lane (column or row) of the canvas there is a channel, a
+//   free interval, and the chart slides through the channel, against its lower end (normal) or its
+//   upper end (mirrored). The outer channel of a lane is the gap that runs through the canvas
+//   border, from behind its last occupied cell to h + its first one; the inner channel is the
+//   largest other gap, or where there is none the larger gap to the canvas border. The placement
+//   rule of section 2.2.2 is then just "the chart's two horizons lie within the channel".
+// - A lane with nothing in it is all channel, [0, 2h); that its cells do not meet themselves is
+//   known from Board::admits.
+// - On an axis without wrap the outer channel falls apart into the gap behind the packing (normal)
+//   and the one before it (mirrored).
+// - Ties in wasted space go to inner placements, then to the smaller growth of the packing's
+//   extent, then to the first rotation and shift tried.
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+#include "pack/board.h"
+#include "pack/placer.h"
+#include "pack/slide.h"
+
+namespace wrapatlas {
+namespace {
+
+struct LaneGaps {
+  int first = 0, last = -1;  ///< occupied cells; last < first: an empty lane
+  int inner_low = 0, inner_high = 0;
+};
+
+LaneGaps find_gaps(const BitLanes& lanes, int lane) {
+  LaneGaps gaps;
+  int previous_end = -1;
+  for_each_run(lanes.lane(lane), lanes.length, [&](int begin, int end) {
+    if (previous_end < 0) {
+      gaps.first = begin;
+    } else if (begin - previous_end > gaps.inner_high - gaps.inner_low) {
+      gaps.inner_low = previous_end;
+      gaps.inner_high = begin;
+    }
+    previous_end = end;
+  });
+  gaps.last = previous_end - 1;
+  return gaps;
+}
+
+/// The channels of one direction. Lanes are columns (charts move along y) or rows.
+class Direction {
+ public:
+  Direction(int lanes, int length, bool lanes_wrap, bool length_wraps, int reach)
+      : length_(length), lanes_wrap_(lanes_wrap), length_wraps_(length_wraps) {
+    outer_.resize(lanes, reach);
+    inner_.resize(lanes, reach);
+    if (!length_wraps_) before_.resize(lanes, reach);
+    extent_begin_ = length;
+    for (int lane = 0; lane < lanes; ++lane) set_lane(lane, {});
+    extend();
+  }
+
+  /// Reads the lanes [begin, begin + count) of the board again.
+  void update(const BitLanes& board, int begin, int count) {
+    for (int i = 0; i < std::min(count, board.lanes); ++i) {
+      const int lane = (begin + i) % board.lanes;
+      set_lane(lane, find_gaps(board, lane));
+    }
+    extend();
+  }
+
+  [[nodiscard]] const Channel& outer_normal() const { return outer_; }
+  [[nodiscard]] const Channel& outer_mirrored() const { return length_wraps_ ? outer_ : before_; }
+  [[nodiscard]] const Channel& inner() const { return inner_; }
+  [[nodiscard]] bool shares_outer() const { return length_wraps_; }
+  [[nodiscard]] int length() const { return length_; }
+  [[nodiscard]] int shifts(const Silhouette& chart) const {
+    return lanes_wrap_ ? outer_.lanes : outer_.lanes - chart.bits.lanes + 1;
+  }
+  /// By how much a chart at [position, position + size) would stretch the occupied extent.
+  [[nodiscard]] int growth(int position, int size) const {
+    if (extent_end_ <= extent_begin_) return 0;
+    return std::max(0, position + size - extent_end_) + std::max(0, extent_begin_ - position);
+  }
+
+ private:
+  void set_lane(int lane, const LaneGaps& gaps) {
+    const auto i = static_cast<std::size_t>(lane);
+    const auto put = [i](Channel& channel, int low, int high) {
+      channel.low[i] = static_cast<std::int16_t>(low);
+      channel.high[i] = static_cast<std::int16_t>(high);
+    };
+    if (gaps.last < gaps.first) {
+      const int end = length_wraps_ ? 2 * length_ : length_;
+      put(outer_, 0, end);
+      put(inner_, 0, end);
+      if (!length_wraps_) put(before_, 0, end);
+      return;
+    }
+    extent_begin_ = std::min(extent_begin_, gaps.first);
+    extent_end_ = std::max(extent_end_, gaps.last + 1);
+    put(outer_, gaps.last + 1, length_wraps_ ? length_ + gaps.first : length_);
+    if (!length_wraps_) put(before_, 0, gaps.first);
+    if (gaps.inner_high > gaps.inner_low) {
+      put(inner_, gaps.inner_low, gaps.inner_high);
+    } else if (gaps.first > length_ - gaps.last - 1) {
+      put(inner_, 0, gaps.first);
+    } else {
+      put(inner_, gaps.last + 1, length_);
+    }
+  }
+  void extend() {
+    outer_.extend();
+    inner_.extend();
+    if (!length_wraps_) before_.extend();
+  }
+
+  int length_;
+  bool lanes_wrap_, length_wraps_;
+  Channel outer_, inner_, before_;
+  int extent_begin_ = 0, extent_end_ = 0;
+};
+
+struct Candidate {
+  double waste = std::numeric_limits<double>::infinity();
+  bool outer = true;
+  int growth = 0;
+  std::int32_t rotation = -1;
+  int shift = 0, position = 0;
+  bool along_y = true;
+
+  [[nodiscard]] bool better_than(const Candidate& other) const {
+    if (waste != other.waste) return waste < other.waste;
+    if (outer != other.outer) return !outer;
+    return growth < other.growth;
+  }
+};
+
+class ModuloPlacer {
+ public:
+  explicit ModuloPlacer(const PlaceTask& task)
+      : task_(task),
+        board_(task.width, task.height, task.wrap),
+        along_y_(task.width, task.height, wraps_u(task.wrap), wraps_v(task.wrap), task.reach),
+        along_x_(task.height, task.width, wraps_v(task.wrap), wraps_u(task.wrap), task.reach) {}
+
+  bool place(std::span<const ChartRaster> rasters, CellPlacement& placement) {
+    best_ = {};
+    for (std::size_t i = 0; i < rasters.size(); ++i) {
+      if (!board_.admits(rasters[i])) continue;
+      rotation_ = static_cast<std::int32_t>(i);
+      try_direction(along_y_, rasters[i].columns, true);
+      try_direction(along_x_, rasters[i].rows, false);
+    }
+    if (best_.rotation < 0) return false;
+    const ChartRaster& raster = rasters[static_cast<std::size_t>(best_.rotation)];
+    placement.rotation = best_.rotation;
+    placement.x = best_.along_y ? best_.shift : best_.position;
+    placement.y = best_.along_y ? best_.position : best_.shift;
+    placement.x = (placement.x % task_.width + task_.width) % task_.width;
+    placement.y = (placement.y % task_.height + task_.height) % task_.height;
+    if (board_.collides(raster, placement.x, placement.y)) return false;
+    board_.add(raster, placement.x, placement.y);
+    along_y_.update(board_.columns(), placement.x, raster.width);
+    along_x_.update(board_.rows(), placement.y, raster.height);
+    return true;
+  }
+
+ private:
+  void try_direction(const Direction& direction, const Silhouette& chart, bool along_y) {
+    along_y_now_ = along_y;
+    shifts_ = direction.shifts(chart);
+    if (shifts_ <= 0) return;
+    if (task_.inner) {
+      slide(direction.inner(), chart, shifts_, range_);
+      take_best(direction, direction.inner(), chart, false, false);
+      take_best(direction, direction.inner(), chart, true, false);
+    }
+    slide(direction.outer_normal(), chart, shifts_, range_);
+    take_best(direction, direction.outer_normal(), chart, false, true);
+    if (!direction.shares_outer()) slide(direction.outer_mirrored(), chart, shifts_, range_);
+    take_best(direction, direction.outer_mirrored(), chart, true, true);
+  }
+
+  /// One strategy: the first shift of least wasted space.
+  void take_best(const Direction& direction, const Channel& channel, const Silhouette& chart,
+                 bool mirrored, bool outer) {
+    std::int32_t least = std::numeric_limits<std::int32_t>::max();
+    int shift = -1;
+    for (int s = 0; s < shifts_; ++s) {
+      const auto i = static_cast<std::size_t>(s);
+      if (range_.lowest[i] > range_.highest[i]) continue;
+      const std::int32_t gap = mirrored ? gap_above(channel, chart, s, range_.highest[i])
+                                        : gap_below(channel, chart, s, range_.lowest[i]);
+      if (gap < least) {
+        least = gap;
+        shift = s;
+      }
+    }
+    if (shift < 0) return;
+    const auto i = static_cast<std::size_t>(shift);
+    Candidate candidate;
+    candidate.waste = (least + chart.hollow) * (outer ? task_.lambda : 1.0);
+    candidate.outer = outer;
+    candidate.shift = shift;
+    candidate.position = mirrored ? range_.highest[i] : range_.lowest[i];
+    candidate.growth = direction.growth(candidate.position, chart.bits.length);
+    candidate.rotation = rotation_;
+    candidate.along_y = along_y_now_;
+    if (candidate.better_than(best_)) best_ = candidate;
+  }
+
+  const PlaceTask& task_;
+  Board board_;
+  Direction along_y_, along_x_;
+  SlideResult range_;
+  Candidate best_;
+  std::int32_t rotation_ = 0;
+  int shifts_ = 0;
+  bool along_y_now_ = true;
+};
+
+}  // namespace
+
+bool place_modulo(const PlaceTask& task, std::vector<CellPlacement>& placements) {
+  placements.assign(task.chart_count, {});
+  ModuloPlacer placer(task);
+  for (const std::uint32_t chart : task.by_area) {
+    if (task.stop()) return false;
+    if (!placer.place(task.rasters(chart), placements[chart])) return false;
+  }
+  return true;
+}
+
+}  // namespace wrapatlas

@@ -1,0 +1,331 @@
+// pack(): angles, grid, scale search and aspect search around the placing methods.
+
+#include "wrapatlas/pack.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <mutex>
+#include <numbers>
+#include <numeric>
+#include <optional>
+
+#include "charts/hull.h"
+#include "pack/frame.h"
+#include "pack/parallel.h"
+#include "pack/placer.h"
+#include "pack/raster_cache.h"
+#include "pack/scale_search.h"
+
+namespace wrapatlas {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+Error usage(std::string what, std::string remedy) {
+  return {ErrorKind::usage, "", std::move(what), std::move(remedy)};
+}
+
+Status check_options(const PackOptions& options) {
+  if (options.width < 1 || options.height < 1 || options.width > 65536 || options.height > 65536) {
+    return usage(fmt::format("resolution {} x {} is out of range", options.width, options.height),
+                 "use 1 to 65536 texels a side");
+  }
+  if (!(options.padding >= 0 && options.padding <= 4096) || !(options.margin <= 65536)) {
+    return usage("padding or margin is out of range", "use 0 to 4096 texels");
+  }
+  if (options.rotations < 1 || options.rotations > 3600) {
+    return usage(fmt::format("{} rotations are out of range", options.rotations), "use 1 to 3600");
+  }
+  if (options.grid < 0 || options.grid > kMaxRasterSide) {
+    return usage(fmt::format("a grid of {} cells is out of range", options.grid),
+                 fmt::format("use 1 to {}, or 0 to let the program choose", kMaxRasterSide));
+  }
+  if (options.block < 1 || options.block > 64) {
+    return usage("block size is out of range", "use 1 to 64 texels");
+  }
+  if (!(options.start_upper > 0 && options.start_upper <= 1)) {
+    return usage("the upper end of the scale search must lie in (0, 1]", "the paper uses 0.9");
+  }
+  if (!(options.lambda >= 0)) return usage("lambda must not be negative", "the paper uses 1.1");
+  if (options.method != Method::modulo && options.wrap != Wrap::none) {
+    return usage("only the modulo packer can wrap", "use --wrap none with this method");
+  }
+  return Done{};
+}
+
+std::vector<double> chart_angles(const Chart& chart, const PackOptions& options) {
+  if (options.method == Method::lprm02) {
+    return {std::numbers::pi / 2 - diameter_direction(convex_hull(chart.points))};
+  }
+  double base = 0;
+  if (options.rotation_base == RotationBase::box) {
+    base = -smallest_box_direction(convex_hull(chart.points));
+  }
+  std::vector<double> angles;
+  for (int i = 0; i < options.rotations; ++i) {
+    angles.push_back(base + 2 * std::numbers::pi * i / options.rotations);
+  }
+  return angles;
+}
+
+PlaceFunction place_function(Method method) {
+  switch (method) {
+    case Method::lprm02:
+      return place_lprm02;
+    case Method::swg03:
+      return place_swg03;
+    case Method::zsgs04:
+      return place_zsgs04;
+    case Method::modulo:
+      return place_modulo;
+  }
+  return place_modulo;
+}
+
+/// Says how far the work is, one caller at a time, and remembers a wish to stop.
+class ProgressMeter {
+ public:
+  ProgressMeter(const PackOptions& options, std::size_t searches)
+      : report_(options.progress), searches_(static_cast<double>(searches)) {}
+
+  [[nodiscard]] bool stopped() const { return stopped_; }
+  [[nodiscard]] bool poll() {
+    if (report_ && !stopped_) report(false);
+    return stopped_;
+  }
+  /// A search takes about twelve attempts; the estimate never runs ahead of the search.
+  void attempt_done(double efficiency) {
+    const std::lock_guard lock(mutex_);
+    work_ += (1 - work_ / searches_) / 12;
+    best_ = std::max(best_, efficiency);
+  }
+
+ private:
+  void report(bool force) {
+    const std::unique_lock lock(mutex_, std::try_to_lock);
+    if (!lock || (!force && seconds_since(last_) < 0.05)) return;
+    last_ = Clock::now();
+    if (!report_({std::min(work_ / searches_, 1.0), best_})) stopped_ = true;
+  }
+
+  const std::function<bool(const Progress&)>& report_;
+  double searches_;
+  std::mutex mutex_;
+  double work_ = 0, best_ = 0;
+  Clock::time_point last_{};
+  std::atomic<bool> stopped_{false};
+};
+
+/// One shape of texture, and the best packing found for it.
+struct Search {
+  Frame frame;
+  double factor = 0;  ///< 0: none
+  std::vector<CellPlacement> placements;
+  std::shared_ptr<ScaleRasters> rasters;
+  int packings = 0;
+  double seconds = 0;
+};
+
+class Packer {
+ public:
+  Packer(std::span<const Chart> charts, const PackOptions& options, double full_scale,
+         RasterCache& cache)
+      : options_(options), full_scale_(full_scale), cache_(cache), by_area_(charts.size()) {
+    std::iota(by_area_.begin(), by_area_.end(), 0U);
+    std::stable_sort(by_area_.begin(), by_area_.end(), [&](std::uint32_t a, std::uint32_t b) {
+      return charts[a].area > charts[b].area;
+    });
+    for (const Chart& chart : charts) {
+      radius_ = std::max(radius_, chart.max_radius);
+      area_ += chart.area;
+    }
+  }
+
+  void run(Search& search, ProgressMeter& meter) const {
+    const auto start = Clock::now();
+    ScaleSearchOptions scale_options;
+    scale_options.upper = options_.start_upper;
+    std::vector<CellPlacement> placements;
+    search_scale(
+        scale_options,
+        [&](double factor) {
+          auto rasters = rasters_at(search.frame, factor);
+          ++search.packings;
+          const bool success = attempt(search.frame, *rasters, meter, placements);
+          if (success && factor > search.factor) {
+            search.factor = factor;
+            search.rasters = std::move(rasters);
+            search.placements.swap(placements);
+          }
+          meter.attempt_done(efficiency(search));
+          return success;
+        },
+        [&meter] { return meter.stopped(); });
+    search.seconds = seconds_since(start);
+  }
+
+  [[nodiscard]] double scale(double factor) const { return factor * full_scale_; }
+  [[nodiscard]] double efficiency(const Search& search) const {
+    const double s = scale(search.factor);
+    return s * s * area_ / search.frame.texels();
+  }
+
+ private:
+  [[nodiscard]] std::shared_ptr<ScaleRasters> rasters_at(const Frame& frame, double factor) const {
+    RasterScale raster_scale;
+    raster_scale.cells_per_unit = {scale(factor) / frame.cell.x, scale(factor) / frame.cell.y};
+    raster_scale.growth = frame.growth;
+    raster_scale.coverage = options_.coverage;
+    return cache_.at(raster_scale, kLongestInDomains * std::max(frame.width, frame.height));
+  }
+
+  bool attempt(const Frame& frame, ScaleRasters& rasters, ProgressMeter& meter,
+               std::vector<CellPlacement>& placements) const {
+    PlaceTask task;
+    task.width = frame.width;
+    task.height = frame.height;
+    task.wrap = options_.wrap;
+    task.chart_count = by_area_.size();
+    task.rasters = [&rasters](std::size_t chart) { return rasters.of(chart); };
+    task.by_area = by_area_;
+    const Vec2 cells = rasters.scale().cells_per_unit;
+    const double reach = 2 * (radius_ * std::max(cells.x, cells.y) + frame.growth) + 2;
+    task.reach = static_cast<int>(std::min<double>(reach, rasters.max_side()));
+    task.lambda = options_.lambda;
+    task.inner = options_.inner;
+    task.all_sides = options_.all_sides;
+    task.stop = [&meter] { return meter.poll(); };
+    return place_function(options_.method)(task, placements);
+  }
+
+  /// A chart may wind around the torus, but not for ever.
+  static constexpr int kLongestInDomains = 4;
+
+  const PackOptions& options_;
+  double full_scale_;
+  RasterCache& cache_;
+  std::vector<std::uint32_t> by_area_;
+  double radius_ = 0, area_ = 0;
+};
+
+/// Cells along the longer side of the grid, where the user leaves the choice to us: the paper's
+/// 256, and finer where charts are so many that the average one would have too few cells.
+int choose_grid(const PackOptions& options, std::size_t charts) {
+  if (options.grid > 0) return options.grid;
+  constexpr double kCellsPerChart = 64;
+  const double cells = std::sqrt(kCellsPerChart * static_cast<double>(charts));
+  const int longest = std::max(options.width, options.height);
+  const int finest = std::clamp(longest, 256, 2048);
+  return std::clamp(static_cast<int>(cells), 256, finest);
+}
+
+/// The paper's 31 aspect ratios of one area, w = round(n 2^(k/10)), h = round(n 2^(-k/10)), k from
+/// -15 to 15 (section 3), as textures of whole cells.
+Result<std::vector<Frame>> make_frames(const PackOptions& options, std::size_t charts) {
+  const int grid = choose_grid(options, charts);
+  const double cell = double(std::max(options.width, options.height)) / grid;
+  std::vector<Frame> frames;
+  if (!options.search_aspect) {
+    auto frame = make_frame(options.width, options.height, cell, options);
+    if (!frame) return frame.error();
+    frames.push_back(*frame);
+    return frames;
+  }
+  const double side = std::sqrt(double(options.width) * options.height);
+  // Textures whose sides are whole cells pack best; a cell of whole texels makes both whole.
+  const double unit = std::max(1.0, std::round(cell / options.block) * options.block);
+  for (int k = -15; k <= 15; ++k) {
+    const auto texels = [&](double exponent) {
+      return static_cast<int>(std::max(1.0, std::round(side / unit * std::exp2(exponent))) * unit);
+    };
+    auto frame = make_frame(texels(k / 10.0), texels(-k / 10.0), cell < 1 ? cell : unit, options);
+    if (!frame) return frame.error();
+    frames.push_back(*frame);
+  }
+  return frames;
+}
+
+Packing to_packing(const Search& search, const Packer& packer, const PackOptions& options) {
+  const Frame& frame = search.frame;
+  Packing packing;
+  packing.width = frame.texture_width;
+  packing.height = frame.texture_height;
+  packing.wrap = options.wrap;
+  packing.scale = packer.scale(search.factor);
+  packing.efficiency = packer.efficiency(search);
+  packing.grid_width = frame.width;
+  packing.grid_height = frame.height;
+  std::int64_t covered = 0;
+  for (std::size_t chart = 0; chart < search.placements.size(); ++chart) {
+    const CellPlacement& cell = search.placements[chart];
+    const ChartRaster& raster = search.rasters->of(chart)[static_cast<std::size_t>(cell.rotation)];
+    covered += raster.cells;
+    packing.placements.push_back({raster.angle,
+                                  {(raster.offset.x + cell.x) * frame.cell.x + frame.origin.x,
+                                   (raster.offset.y + cell.y) * frame.cell.y + frame.origin.y}});
+  }
+  packing.raster_efficiency = static_cast<double>(covered) / (double(frame.width) * frame.height);
+  return packing;
+}
+
+}  // namespace
+
+Result<Packing> pack(std::span<const Chart> charts, const PackOptions& options) {
+  if (const Status ok = check_options(options); !ok) return ok.error();
+  if (charts.empty()) return usage("there are no charts to pack", "give at least one");
+  double area = 0;
+  for (const Chart& chart : charts) area += chart.area;
+  if (!(area > 0) || !std::isfinite(area)) {
+    return Error{ErrorKind::input, "charts", "their total area is zero or not finite",
+                 "unwrap the mesh again: its UVs are collapsed"};
+  }
+  auto frames = make_frames(options, charts.size());
+  if (!frames) return frames.error();
+
+  std::vector<RasterShape> shapes;
+  std::vector<std::vector<double>> angles;
+  for (const Chart& chart : charts) {
+    shapes.push_back(make_raster_shape(chart));
+    angles.push_back(chart_angles(chart, options));
+  }
+  RasterCache cache(std::move(shapes), std::move(angles));
+  const double full_scale = std::sqrt(double(options.width) * options.height / area);
+  const Packer packer(charts, options, full_scale, cache);
+  ProgressMeter meter(options, frames->size());
+  std::vector<Search> searches(frames->size());
+  for (std::size_t i = 0; i < searches.size(); ++i) searches[i].frame = (*frames)[i];
+  parallel_for(searches.size(), thread_count(options.threads),
+               [&](std::size_t i) { packer.run(searches[i], meter); });
+
+  const auto best =
+      std::max_element(searches.begin(), searches.end(), [&](const Search& a, const Search& b) {
+        return packer.efficiency(a) < packer.efficiency(b);
+      });
+  if (best->factor == 0) {
+    if (meter.stopped()) {
+      return Error{ErrorKind::interrupted, "", "stopped before a packing was found", ""};
+    }
+    return Error{ErrorKind::no_packing, "",
+                 fmt::format("no scale was found at which {} charts fit {} x {} texels",
+                             charts.size(), options.width, options.height),
+                 "raise --resolution or lower --padding"};
+  }
+  Packing packing = to_packing(*best, packer, options);
+  packing.interrupted = meter.stopped();
+  packing.raster_seconds = cache.seconds();
+  for (const Search& search : searches) {
+    packing.packings += search.packings;
+    packing.place_seconds += search.seconds;
+  }
+  packing.place_seconds = std::max(0.0, packing.place_seconds - packing.raster_seconds);
+  return packing;
+}
+
+}  // namespace wrapatlas

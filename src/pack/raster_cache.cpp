@@ -1,0 +1,60 @@
+#include "pack/raster_cache.h"
+
+#include <algorithm>
+#include <chrono>
+
+namespace wrapatlas {
+
+ScaleRasters::ScaleRasters(std::span<const RasterShape> shapes,
+                           std::span<const std::vector<double>> angles, const RasterScale& scale,
+                           int max_side)
+    : shapes_(shapes), angles_(angles), scale_(scale), max_side_(max_side), slots_(shapes.size()) {}
+
+std::span<const ChartRaster> ScaleRasters::of(std::size_t chart) {
+  Slot& slot = slots_[chart];
+  std::call_once(slot.once, [&] {
+    const auto start = std::chrono::steady_clock::now();
+    slot.rasters.reserve(angles_[chart].size());
+    for (const double angle : angles_[chart]) {
+      slot.rasters.push_back(rasterize(shapes_[chart], scale_, angle, max_side_));
+    }
+    nanoseconds_ += std::chrono::duration_cast<std::chrono::nanoseconds>(
+                        std::chrono::steady_clock::now() - start)
+                        .count();
+  });
+  return slot.rasters;
+}
+
+double ScaleRasters::seconds() const { return static_cast<double>(nanoseconds_.load()) * 1e-9; }
+
+RasterCache::RasterCache(std::vector<RasterShape> shapes, std::vector<std::vector<double>> angles)
+    : shapes_(std::move(shapes)), angles_(std::move(angles)) {}
+
+std::shared_ptr<ScaleRasters> RasterCache::at(const RasterScale& scale, int max_side) {
+  const auto same = [&](const std::shared_ptr<ScaleRasters>& entry) {
+    return entry->scale().cells_per_unit == scale.cells_per_unit &&
+           entry->scale().growth == scale.growth && entry->scale().coverage == scale.coverage &&
+           entry->max_side() == max_side;
+  };
+  const std::lock_guard lock(mutex_);
+  const auto found = std::find_if(recent_.begin(), recent_.end(), same);
+  if (found != recent_.end()) {
+    recent_.splice(recent_.begin(), recent_, found);
+    return recent_.front();
+  }
+  recent_.push_front(std::make_shared<ScaleRasters>(shapes_, angles_, scale, max_side));
+  if (recent_.size() > kScalesKept) {
+    dropped_seconds_ += recent_.back()->seconds();
+    recent_.pop_back();
+  }
+  return recent_.front();
+}
+
+double RasterCache::seconds() {
+  const std::lock_guard lock(mutex_);
+  double sum = dropped_seconds_;
+  for (const auto& entry : recent_) sum += entry->seconds();
+  return sum;
+}
+
+}  // namespace wrapatlas

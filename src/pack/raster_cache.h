@@ -1,0 +1,59 @@
+// Rasters of all charts at all their angles, made once per scale and shared between attempts.
+#pragma once
+
+#include <atomic>
+#include <list>
+#include <memory>
+#include <mutex>
+#include <span>
+#include <vector>
+
+#include "raster/chart_raster.h"
+
+namespace wrapatlas {
+
+/// The rasters of one scale. Each chart's are made when first asked for, by whichever thread asks.
+class ScaleRasters {
+ public:
+  ScaleRasters(std::span<const RasterShape> shapes, std::span<const std::vector<double>> angles,
+               const RasterScale& scale, int max_side);
+
+  [[nodiscard]] std::span<const ChartRaster> of(std::size_t chart);
+  [[nodiscard]] const RasterScale& scale() const { return scale_; }
+  [[nodiscard]] int max_side() const { return max_side_; }
+  /// Time spent rasterising, summed over threads.
+  [[nodiscard]] double seconds() const;
+
+ private:
+  struct Slot {
+    std::once_flag once;
+    std::vector<ChartRaster> rasters;
+  };
+  std::span<const RasterShape> shapes_;
+  std::span<const std::vector<double>> angles_;
+  RasterScale scale_;
+  int max_side_;
+  std::vector<Slot> slots_;
+  std::atomic<std::int64_t> nanoseconds_{0};
+};
+
+/// Keeps the rasters of the scales used last. Aspect ratios of one area search the same scales, so
+/// they find them here. Thread-safe.
+class RasterCache {
+ public:
+  RasterCache(std::vector<RasterShape> shapes, std::vector<std::vector<double>> angles);
+
+  std::shared_ptr<ScaleRasters> at(const RasterScale& scale, int max_side);
+  [[nodiscard]] double seconds();
+  [[nodiscard]] std::size_t chart_count() const { return shapes_.size(); }
+
+ private:
+  static constexpr std::size_t kScalesKept = 12;
+  std::vector<RasterShape> shapes_;
+  std::vector<std::vector<double>> angles_;
+  std::mutex mutex_;
+  std::list<std::shared_ptr<ScaleRasters>> recent_;  ///< most recently used first
+  double dropped_seconds_ = 0;
+};
+
+}  // namespace wrapatlas

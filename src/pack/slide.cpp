@@ -1,0 +1,156 @@
+#include "pack/slide.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace wrapatlas {
+namespace {
+
+constexpr int kTile = 64;  ///< shifts worked on together; their results stay in registers
+
+/// One tile of consecutive shifts. The inner loops have a fixed count and no aliasing, so each
+/// compiler turns them into the vectors of the function they are inlined in.
+[[gnu::always_inline]] inline void slide_tile(const std::int16_t* low, const std::int16_t* high,
+                                              const Silhouette& chart, std::int16_t* lowest,
+                                              std::int16_t* highest) {
+  alignas(64) std::int16_t most[kTile], least[kTile];
+  for (int s = 0; s < kTile; ++s) {
+    most[s] = std::numeric_limits<std::int16_t>::min();
+    least[s] = std::numeric_limits<std::int16_t>::max();
+  }
+  const int lanes = chart.bits.lanes;
+  for (int c = 0; c < lanes; ++c) {
+    const std::int16_t first = chart.first[static_cast<std::size_t>(c)];
+    const std::int16_t last = chart.last[static_cast<std::size_t>(c)];
+    if (first > last) continue;
+    const auto end = static_cast<std::int16_t>(last + 1);
+    const std::int16_t* lane_low = low + c;
+    const std::int16_t* lane_high = high + c;
+    for (int s = 0; s < kTile; ++s) {
+      const auto value = static_cast<std::int16_t>(lane_low[s] - first);
+      most[s] = most[s] < value ? value : most[s];
+    }
+    for (int s = 0; s < kTile; ++s) {
+      const auto value = static_cast<std::int16_t>(lane_high[s] - end);
+      least[s] = value < least[s] ? value : least[s];
+    }
+  }
+  std::copy(most, most + kTile, lowest);
+  std::copy(least, least + kTile, highest);
+}
+
+[[gnu::always_inline]] inline void slide_tiles(const std::int16_t* low, const std::int16_t* high,
+                                               const Silhouette& chart, int shifts,
+                                               std::int16_t* lowest, std::int16_t* highest) {
+  for (int s = 0; s < shifts; s += kTile) {
+    slide_tile(low + s, high + s, chart, lowest + s, highest + s);
+  }
+}
+
+void slide_tiles_scalar(const std::int16_t* low, const std::int16_t* high, const Silhouette& chart,
+                        int shifts, std::int16_t* lowest, std::int16_t* highest) {
+  slide_tiles(low, high, chart, shifts, lowest, highest);
+}
+
+#if defined(__x86_64__)
+[[gnu::target("avx2")]] void slide_tiles_avx2(const std::int16_t* low, const std::int16_t* high,
+                                              const Silhouette& chart, int shifts,
+                                              std::int16_t* lowest, std::int16_t* highest) {
+  slide_tiles(low, high, chart, shifts, lowest, highest);
+}
+
+[[gnu::target("avx512f,avx512bw,avx512vl,prefer-vector-width=512")]] void slide_tiles_avx512(
+    const std::int16_t* low, const std::int16_t* high, const Silhouette& chart, int shifts,
+    std::int16_t* lowest, std::int16_t* highest) {
+  slide_tiles(low, high, chart, shifts, lowest, highest);
+}
+#endif
+
+SlideFunction widest() {
+  if (SlideFunction function = slide_avx512()) return function;
+  if (SlideFunction function = slide_avx2()) return function;
+  return slide_scalar();
+}
+
+int padded(int shifts) { return (shifts + kTile - 1) / kTile * kTile; }
+
+std::int32_t window(const std::vector<std::int32_t>& sum, int begin, int count) {
+  return sum[static_cast<std::size_t>(begin + count)] - sum[static_cast<std::size_t>(begin)];
+}
+
+/// Sum over the chart's filled lanes; a prefix-sum look-up when all are filled.
+std::int32_t channel_sum(const std::vector<std::int16_t>& values,
+                         const std::vector<std::int32_t>& sums, const Silhouette& chart,
+                         int shift) {
+  if (chart.filled_lanes == chart.bits.lanes) return window(sums, shift, chart.bits.lanes);
+  std::int32_t sum = 0;
+  for (int c = 0; c < chart.bits.lanes; ++c) {
+    const auto i = static_cast<std::size_t>(c);
+    if (chart.first[i] <= chart.last[i]) sum += values[static_cast<std::size_t>(shift + c)];
+  }
+  return sum;
+}
+
+}  // namespace
+
+void Channel::resize(int lane_count, int reach) {
+  lanes = lane_count;
+  const auto size = static_cast<std::size_t>(padded(lane_count) + reach + kTile);
+  low.assign(size, 0);
+  high.assign(size, 0);
+  low_sum.assign(size + 1, 0);
+  high_sum.assign(size + 1, 0);
+}
+
+void Channel::extend() {
+  const auto count = static_cast<std::size_t>(lanes);
+  for (std::size_t i = count; i < low.size(); ++i) {
+    low[i] = low[i - count];
+    high[i] = high[i - count];
+  }
+  for (std::size_t i = 0; i < low.size(); ++i) {
+    low_sum[i + 1] = low_sum[i] + low[i];
+    high_sum[i + 1] = high_sum[i] + high[i];
+  }
+}
+
+SlideFunction slide_scalar() { return slide_tiles_scalar; }
+
+SlideFunction slide_avx2() {
+#if defined(__x86_64__)
+  if (__builtin_cpu_supports("avx2")) return slide_tiles_avx2;
+#endif
+  return nullptr;
+}
+
+SlideFunction slide_avx512() {
+#if defined(__x86_64__)
+  if (__builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl")) {
+    return slide_tiles_avx512;
+  }
+#endif
+  return nullptr;
+}
+
+void slide(const Channel& channel, const Silhouette& chart, int shifts, SlideResult& result) {
+  static const SlideFunction function = widest();
+  const auto size = static_cast<std::size_t>(padded(shifts));
+  if (result.lowest.size() < size) {
+    result.lowest.resize(size);
+    result.highest.resize(size);
+  }
+  function(channel.low.data(), channel.high.data(), chart, shifts, result.lowest.data(),
+           result.highest.data());
+}
+
+std::int32_t gap_below(const Channel& channel, const Silhouette& chart, int shift, int position) {
+  return chart.filled_lanes * position + chart.sum_first -
+         channel_sum(channel.low, channel.low_sum, chart, shift);
+}
+
+std::int32_t gap_above(const Channel& channel, const Silhouette& chart, int shift, int position) {
+  return channel_sum(channel.high, channel.high_sum, chart, shift) -
+         chart.filled_lanes * (position + 1) - chart.sum_last;
+}
+
+}  // namespace wrapatlas

@@ -1,0 +1,223 @@
+#include "raster/chart_raster.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "raster/row_scan.h"
+
+namespace wrapatlas {
+namespace {
+
+/// Winding numbers at cell centres, for shapes that overlap or fold: a running sum per row.
+class WindingFill {
+ public:
+  WindingFill(int width, int height)
+      : width_(width),
+        deltas_(static_cast<std::size_t>(width + 1) * static_cast<std::size_t>(height)) {}
+  void cross(int row, int cell, int winding) {
+    deltas_[static_cast<std::size_t>(row) * static_cast<std::size_t>(width_ + 1) +
+            static_cast<std::size_t>(cell)] += winding;
+  }
+  void fill(BitLanes& rows) const {
+    for (int y = 0; y < rows.lanes; ++y) {
+      const std::int32_t* delta =
+          deltas_.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(width_ + 1);
+      std::int32_t winding = 0;
+      for (int x = 0; x < width_; ++x) {
+        winding += delta[x];
+        if (winding != 0) rows.set(y, x);
+      }
+    }
+  }
+
+ private:
+  int width_;
+  std::vector<std::int32_t> deltas_;
+};
+
+/// Inside by parity, for clean shapes: crossings toggle bits, a prefix-xor spreads them.
+class ParityFill {
+ public:
+  ParityFill(int width, int height) : toggles_(height, width + 1) {}
+  void cross(int row, int cell, int winding) {
+    if ((winding & 1) != 0) {
+      toggles_.lane(row)[cell / kWordBits] ^= std::uint64_t{1} << (cell % kWordBits);
+    }
+  }
+  void fill(BitLanes& rows) const {
+    for (int y = 0; y < rows.lanes; ++y) {
+      std::uint64_t carry = 0;
+      for (int word = 0; word < rows.words; ++word) {
+        std::uint64_t bits = toggles_.lane(y)[word];
+        for (unsigned shift = 1; shift < 64; shift *= 2) bits ^= bits << shift;
+        bits ^= carry;
+        carry = std::uint64_t{0} - (bits >> 63U);
+        rows.lane(y)[word] |= bits;
+      }
+      if (rows.length % kWordBits != 0) {
+        rows.lane(y)[rows.words - 1] &= ~std::uint64_t{0} >> (kWordBits - rows.length % kWordBits);
+      }
+    }
+  }
+
+ private:
+  BitLanes toggles_;
+};
+
+/// First cell of a row whose centre lies right of x.
+int first_centre_right_of(double x, int width) {
+  return std::clamp(static_cast<int>(std::ceil(x - 0.5)), 0, width);
+}
+
+template <typename Fill>
+void fill_inside(const RasterShape& shape, const std::vector<Vec2>& points, BitLanes& rows) {
+  Fill fill(rows.length, rows.lanes);
+  for (const RasterShape::Edge& edge : shape.edges) {
+    Vec2 low = points[edge.from], high = points[edge.to];
+    int winding = edge.winding;
+    if (low.y > high.y) {
+      std::swap(low, high);
+      winding = -winding;
+    }
+    // Rows whose centre lies in [low.y, high.y).
+    const int begin = std::max(0, static_cast<int>(std::ceil(low.y - 0.5)));
+    const int end = std::min(rows.lanes, static_cast<int>(std::ceil(high.y - 0.5)));
+    if (begin >= end) continue;
+    const double slope = (high.x - low.x) / (high.y - low.y);
+    for (int y = begin; y < end; ++y) {
+      const double x = low.x + (y + 0.5 - low.y) * slope;
+      fill.cross(y, first_centre_right_of(x, rows.length), winding);
+    }
+  }
+  fill.fill(rows);
+}
+
+/// Cells whose centre lies in a triangle, or which the triangle enters.
+void cover_triangle(const std::array<Vec2, 3>& corner, Coverage coverage, BitLanes& rows) {
+  const auto [low, high] = std::minmax({corner[0].y, corner[1].y, corner[2].y});
+  for (int y = row_of(low, rows); y <= row_of(high, rows); ++y) {
+    Interval cells;
+    if (coverage == Coverage::conservative) {
+      for (std::size_t i = 0; i < 3; ++i)
+        cells.add(segment_in_band(corner[i], corner[(i + 1) % 3], y));
+      set_entered(rows, y, cells);
+    } else {
+      for (std::size_t i = 0; i < 3; ++i)
+        cells.add(segment_at(corner[i], corner[(i + 1) % 3], y + 0.5));
+      set_centres(rows, y, cells);
+    }
+  }
+}
+
+Silhouette make_silhouette(BitLanes bits) {
+  Silhouette result;
+  const auto lanes = static_cast<std::size_t>(bits.lanes);
+  result.first.resize(lanes);
+  result.last.resize(lanes);
+  std::int32_t spanned = 0;
+  for (std::size_t i = 0; i < lanes; ++i) {
+    const std::uint64_t* lane = bits.lane(static_cast<int>(i));
+    const int last = last_set(lane, bits.length);
+    const int first = last < 0 ? 1 : next_set(lane, bits.length, 0);
+    result.first[i] = static_cast<std::int16_t>(first);
+    result.last[i] = static_cast<std::int16_t>(last < 0 ? 0 : last);
+    if (last < 0) continue;
+    ++result.filled_lanes;
+    result.sum_first += first;
+    result.sum_last += last;
+    spanned += last - first + 1;
+  }
+  result.hollow = spanned - static_cast<std::int32_t>(count_set(bits));
+  result.bits = std::move(bits);
+  return result;
+}
+
+}  // namespace
+
+RasterShape make_raster_shape(const Chart& chart) {
+  RasterShape shape;
+  shape.simple = chart.overlap == 0 && chart.against_grain.empty();
+  shape.centre = 0.5 * (chart.box.min + chart.box.max);
+  std::vector<std::uint32_t> renumbered(chart.points.size(), kNone);
+  const auto use = [&](std::uint32_t point) {
+    if (renumbered[point] == kNone) {
+      renumbered[point] = static_cast<std::uint32_t>(shape.points.size());
+      shape.points.push_back(chart.points[point] - shape.centre);
+    }
+    return renumbered[point];
+  };
+  shape.edges.reserve(chart.outline.size());
+  for (const OutlineEdge& edge : chart.outline) {
+    const std::uint32_t from = use(edge.from);
+    shape.edges.push_back({from, use(edge.to), edge.winding});
+    if (std::abs(edge.winding) > 1) shape.simple = false;
+  }
+  for (const std::uint32_t triangle : chart.against_grain) {
+    const auto& corner = chart.triangles[triangle];
+    const std::uint32_t a = use(corner[0]), b = use(corner[1]);
+    shape.triangles.push_back({a, b, use(corner[2])});
+  }
+  return shape;
+}
+
+ChartRaster rasterize(const RasterShape& shape, const RasterScale& scale, double angle,
+                      int max_side) {
+  const double growth = std::max(scale.growth, 0.0);
+  const double cos_angle = std::cos(angle), sin_angle = std::sin(angle);
+  thread_local std::vector<Vec2> points;
+  points.resize(shape.points.size());
+  Box2 box;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Vec2 p = shape.points[i];
+    points[i] = {(cos_angle * p.x - sin_angle * p.y) * scale.cells_per_unit.x,
+                 (sin_angle * p.x + cos_angle * p.y) * scale.cells_per_unit.y};
+    box.add(points[i]);
+  }
+  if (box.empty()) box.add({0, 0});
+
+  ChartRaster raster;
+  raster.angle = angle;
+  const Vec2 size = box.size() + Vec2{2 * growth, 2 * growth};
+  if (!(std::max(size.x, size.y) <= std::min(max_side, kMaxRasterSide))) return raster;
+  raster.width = std::max(1, static_cast<int>(std::ceil(size.x)));
+  raster.height = std::max(1, static_cast<int>(std::ceil(size.y)));
+  const Vec2 shift = Vec2{growth, growth} - box.min;
+  for (Vec2& p : points) p = p + shift;
+  // Points of the chart reach cell space through M (p - centre) + shift.
+  const Vec2 centre = {
+      (cos_angle * shape.centre.x - sin_angle * shape.centre.y) * scale.cells_per_unit.x,
+      (sin_angle * shape.centre.x + cos_angle * shape.centre.y) * scale.cells_per_unit.y};
+  raster.offset = shift - centre;
+
+  BitLanes rows(raster.height, raster.width);
+  if (shape.simple) {
+    fill_inside<ParityFill>(shape, points, rows);
+  } else {
+    fill_inside<WindingFill>(shape, points, rows);
+  }
+  for (const auto& corner : shape.triangles) {
+    cover_triangle({points[corner[0]], points[corner[1]], points[corner[2]]}, scale.coverage, rows);
+  }
+  const auto cover_edge = [&](Vec2 a, Vec2 b) {
+    if (scale.coverage == Coverage::conservative) {
+      cover_capsule(a, b, growth, rows);
+    } else if (growth > 0) {
+      cover_capsule_centres(a, b, growth, rows);
+    }
+  };
+  for (const RasterShape::Edge& edge : shape.edges) cover_edge(points[edge.from], points[edge.to]);
+  for (const auto& corner : shape.triangles) {
+    for (std::size_t i = 0; i < 3; ++i) cover_edge(points[corner[i]], points[corner[(i + 1) % 3]]);
+  }
+  raster.cells = count_set(rows);
+  if (raster.cells == 0) {
+    rows.set(std::min(raster.height - 1, raster.height / 2),
+             std::min(raster.width - 1, raster.width / 2));
+    raster.cells = 1;
+  }
+  raster.columns = make_silhouette(transposed(rows));
+  raster.rows = make_silhouette(std::move(rows));
+  return raster;
+}
+
+}  // namespace wrapatlas

@@ -1,0 +1,191 @@
+#include "wrapatlas/pack.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+
+#include "pack/frame.h"
+#include "pack/parallel.h"
+#include "pack/scale_search.h"
+#include "support/shapes.h"
+#include "support/soup_check.h"
+
+namespace wrapatlas {
+namespace {
+
+PackOptions options_for(Method method, Wrap wrap) {
+  PackOptions options;
+  options.method = method;
+  options.wrap = wrap;
+  options.width = options.height = 256;
+  options.grid = 128;
+  options.threads = 1;
+  return options;
+}
+
+struct Setting {
+  Method method;
+  Wrap wrap;
+};
+
+class EveryMethod : public ::testing::TestWithParam<Setting> {};
+
+TEST_P(EveryMethod, KeepsItsPromisesOnRandomCharts) {
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    const std::vector<Chart> charts = test::mixed_charts(seed, 3 + static_cast<int>(seed) * 3);
+    PackOptions options = options_for(GetParam().method, GetParam().wrap);
+    options.padding = static_cast<double>(seed % 4) * 1.5;
+    if (seed % 3 == 0) options.margin = 5;
+    if (seed % 2 == 0) options.rotation_base = RotationBase::box;
+    if (seed == 5) options.height = 100;
+    const auto packing = pack(charts, options);
+    ASSERT_TRUE(packing) << packing.error().message();
+    ASSERT_EQ(packing->placements.size(), charts.size());
+    EXPECT_EQ(test::check_packing(charts, *packing, options), "") << "seed " << seed;
+    EXPECT_GT(packing->efficiency, 0.15);
+    EXPECT_LT(packing->efficiency, 1);
+    EXPECT_LE(packing->efficiency, packing->raster_efficiency * 1.0 + 1e-9);
+  }
+}
+
+TEST_P(EveryMethod, SameBitsForAnyNumberOfThreads) {
+  const std::vector<Chart> charts = test::mixed_charts(20, 12);
+  PackOptions options = options_for(GetParam().method, GetParam().wrap);
+  options.search_aspect = true;
+  options.grid = 64;
+  const auto one = pack(charts, options);
+  options.threads = 3;
+  const auto three = pack(charts, options);
+  ASSERT_TRUE(one && three);
+  EXPECT_EQ(one->width, three->width);
+  EXPECT_EQ(one->scale, three->scale);
+  EXPECT_EQ(one->packings, three->packings);
+  for (std::size_t i = 0; i < charts.size(); ++i) {
+    EXPECT_EQ(one->placements[i].angle, three->placements[i].angle);
+    EXPECT_EQ(one->placements[i].translation, three->placements[i].translation);
+  }
+}
+
+TEST_P(EveryMethod, OneChartAndManyTiny) {
+  PackOptions options = options_for(GetParam().method, GetParam().wrap);
+  const std::vector<Chart> one{test::rectangle(3, 2)};
+  const auto single = pack(one, options);
+  ASSERT_TRUE(single) << single.error().message();
+  EXPECT_EQ(test::check_packing(one, *single, options), "");
+
+  const std::vector<Chart> many(600, test::rectangle(1, 1));
+  const auto crowd = pack(many, options);
+  ASSERT_TRUE(crowd) << crowd.error().message();
+  EXPECT_EQ(test::check_packing(many, *crowd, options), "");
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Methods, EveryMethod,
+    ::testing::Values(Setting{Method::modulo, Wrap::uv}, Setting{Method::modulo, Wrap::u},
+                      Setting{Method::modulo, Wrap::v}, Setting{Method::modulo, Wrap::none},
+                      Setting{Method::lprm02, Wrap::none}, Setting{Method::swg03, Wrap::none},
+                      Setting{Method::zsgs04, Wrap::none}));
+
+TEST(Pack, WrapLetsALongChartLieAcrossTheBorder) {
+  // A diagonal strip longer than the texture can only reach a high share by winding around.
+  const std::vector<Chart> charts{test::rectangle(8, 1)};
+  PackOptions options = options_for(Method::modulo, Wrap::uv);
+  options.padding = 0;
+  options.rotations = 64;
+  const auto torus = pack(charts, options);
+  options.wrap = Wrap::none;
+  const auto plain = pack(charts, options);
+  ASSERT_TRUE(torus && plain);
+  EXPECT_EQ(test::check_packing(charts, *torus, options_for(Method::modulo, Wrap::uv)), "");
+  EXPECT_GT(torus->efficiency, 2 * plain->efficiency);
+}
+
+TEST(Pack, BlocksAreNotShared) {
+  const std::vector<Chart> charts = test::mixed_charts(3, 10);
+  PackOptions options = options_for(Method::modulo, Wrap::uv);
+  options.block = 4;
+  options.padding = 0;
+  const auto packing = pack(charts, options);
+  ASSERT_TRUE(packing);
+  EXPECT_EQ(test::check_blocks(charts, *packing, 4), "");
+  options.width = 258;
+  EXPECT_FALSE(pack(charts, options));
+}
+
+TEST(Pack, StopsWithTheBestSoFar) {
+  const std::vector<Chart> charts = test::mixed_charts(5, 20);
+  PackOptions options = options_for(Method::modulo, Wrap::uv);
+  options.search_aspect = true;
+  options.progress = [](const Progress& progress) { return progress.best_efficiency == 0; };
+  const auto packing = pack(charts, options);
+  ASSERT_TRUE(packing) << packing.error().message();
+  EXPECT_TRUE(packing->interrupted);
+  EXPECT_EQ(test::check_packing(charts, *packing, options), "");
+
+  options.progress = [](const Progress&) { return false; };
+  const auto nothing = pack(charts, options);
+  ASSERT_FALSE(nothing);
+  EXPECT_EQ(nothing.error().kind, ErrorKind::interrupted);
+}
+
+TEST(Pack, BadOptionsAreUsageErrors) {
+  const std::vector<Chart> charts{test::rectangle(1, 1)};
+  const auto kind_with = [&](auto change) {
+    PackOptions options = options_for(Method::modulo, Wrap::uv);
+    change(options);
+    const auto packing = pack(charts, options);
+    return packing ? ErrorKind::check : packing.error().kind;
+  };
+  EXPECT_EQ(kind_with([](PackOptions& o) { o.width = 0; }), ErrorKind::usage);
+  EXPECT_EQ(kind_with([](PackOptions& o) { o.padding = -1; }), ErrorKind::usage);
+  EXPECT_EQ(kind_with([](PackOptions& o) { o.padding = std::nan(""); }), ErrorKind::usage);
+  EXPECT_EQ(kind_with([](PackOptions& o) { o.rotations = 0; }), ErrorKind::usage);
+  EXPECT_EQ(kind_with([](PackOptions& o) { o.grid = 100000; }), ErrorKind::usage);
+  EXPECT_EQ(kind_with([](PackOptions& o) { o.method = Method::swg03; }), ErrorKind::usage);
+  EXPECT_EQ(kind_with([](PackOptions& o) { o.wrap = Wrap::none, o.margin = 200; }),
+            ErrorKind::usage);
+  EXPECT_EQ(kind_with([](PackOptions& o) { o.padding = 300; }), ErrorKind::no_packing);
+  EXPECT_FALSE(pack({}, options_for(Method::modulo, Wrap::uv)));
+}
+
+TEST(ScaleSearch, FollowsThePaper) {
+  // Everything up to 0.5 succeeds: the factors tried are those of section 2.2.3 by hand.
+  std::vector<double> tried;
+  ScaleSearchOptions options;
+  options.upper = 0.9;
+  const auto best = search_scale(
+      options, [&](double f) { return tried.push_back(f), f <= 0.5; }, [] { return false; });
+  ASSERT_GE(tried.size(), 4U);
+  EXPECT_DOUBLE_EQ(tried[0], 0.5);  // l = 0.5
+  EXPECT_DOUBLE_EQ(tried[1], 0.7);  // u = 0.7 + 0.2 / 3
+  EXPECT_DOUBLE_EQ(tried[2], (0.5 + 0.7 + 0.2 / 3) / 2);
+  EXPECT_DOUBLE_EQ(best.value(), 0.5);
+}
+
+TEST(ScaleSearch, KeepsTheBestWhenSuccessIsNotMonotone) {
+  const auto best = search_scale(
+      {}, [](double f) { return f < 0.4 || (f > 0.54 && f < 0.56); }, [] { return false; });
+  EXPECT_GT(best.value(), 0.54);
+}
+
+TEST(ScaleSearch, GoesBelowTheFirstLowerBoundAndGivesUp) {
+  const auto small = search_scale(
+      {}, [](double f) { return f < 0.013; }, [] { return false; });
+  ASSERT_TRUE(small.has_value());
+  EXPECT_GT(*small, 0.009);
+  EXPECT_FALSE(search_scale(
+                   {}, [](double) { return false; }, [] { return false; })
+                   .has_value());
+}
+
+TEST(ParallelFor, RunsEachJobOnce) {
+  for (const int threads : {1, 2, 7}) {
+    std::vector<std::atomic<int>> runs(1000);
+    parallel_for(runs.size(), threads, [&](std::size_t i) { ++runs[i]; });
+    for (const auto& count : runs) ASSERT_EQ(count, 1);
+  }
+  parallel_for(0, 4, [](std::size_t) { FAIL(); });
+}
+
+}  // namespace
+}  // namespace wrapatlas

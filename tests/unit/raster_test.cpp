@@ -1,0 +1,240 @@
+#include "raster/chart_raster.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "support/shapes.h"
+
+namespace wrapatlas {
+namespace {
+
+using test::uniform;
+
+double point_to_segment(Vec2 p, Vec2 a, Vec2 b) {
+  const Vec2 ab = b - a;
+  const double norm = dot(ab, ab);
+  const double t = norm > 0 ? std::clamp(dot(p - a, ab) / norm, 0.0, 1.0) : 0;
+  return length(p - (a + t * ab));
+}
+
+bool segments_cross(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
+  const double p = signed_area2(a, b, c), q = signed_area2(a, b, d);
+  const double r = signed_area2(c, d, a), s = signed_area2(c, d, b);
+  return p * q < 0 && r * s < 0;
+}
+
+bool inside(Vec2 p, const std::array<Vec2, 3>& t) {
+  const double a = signed_area2(t[0], t[1], p), b = signed_area2(t[1], t[2], p),
+               c = signed_area2(t[2], t[0], p);
+  return (a >= 0 && b >= 0 && c >= 0) || (a <= 0 && b <= 0 && c <= 0);
+}
+
+/// Distance between convex polygons by all pairs of corners and sides: slow and obvious.
+template <std::size_t N, std::size_t M>
+double polygon_distance(const std::array<Vec2, N>& p, const std::array<Vec2, M>& q) {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < N; ++i) {
+    for (std::size_t j = 0; j < M; ++j) {
+      const Vec2 a = p[i], b = p[(i + 1) % N], c = q[j], d = q[(j + 1) % M];
+      if (segments_cross(a, b, c, d)) return 0;
+      least = std::min({least, point_to_segment(a, c, d), point_to_segment(c, a, b)});
+    }
+  }
+  return least;
+}
+
+double cell_to_triangle(int x, int y, const std::array<Vec2, 3>& t) {
+  const std::array<Vec2, 4> cell{Vec2{double(x), double(y)}, Vec2{x + 1.0, double(y)},
+                                 Vec2{x + 1.0, y + 1.0}, Vec2{double(x), y + 1.0}};
+  for (const Vec2 p : cell) {
+    if (inside(p, t)) return 0;
+  }
+  for (const Vec2 p : t) {
+    if (p.x >= x && p.x <= x + 1 && p.y >= y && p.y <= y + 1) return 0;
+  }
+  return polygon_distance(cell, t);
+}
+
+/// The definition of both coverages, cell by cell and triangle by triangle. Cells whose answer
+/// hangs on rounding are left undecided (-1).
+int oracle(const std::vector<std::array<Vec2, 3>>& triangles, Coverage coverage, double growth,
+           int x, int y) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const auto& t : triangles) {
+    if (coverage == Coverage::conservative) {
+      least = std::min(least, cell_to_triangle(x, y, t));
+    } else {
+      const Vec2 centre{x + 0.5, y + 0.5};
+      const double d =
+          std::min({point_to_segment(centre, t[0], t[1]), point_to_segment(centre, t[1], t[2]),
+                    point_to_segment(centre, t[2], t[0])});
+      if (d < 1e-9 && growth == 0) return -1;
+      least = std::min(least, inside(centre, t) && signed_area2(t[0], t[1], t[2]) != 0 ? 0 : d);
+    }
+  }
+  if (growth > 0 && std::abs(least - growth) < 1e-9) return -1;
+  return growth > 0 ? least < growth : least == 0;
+}
+
+void compare_with_oracle(const Chart& chart, const RasterScale& scale, double angle) {
+  const RasterShape shape = make_raster_shape(chart);
+  const ChartRaster raster = rasterize(shape, scale, angle);
+  std::vector<std::array<Vec2, 3>> triangles;
+  for (const auto& t : chart.triangles) {
+    std::array<Vec2, 3> corners;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Vec2 p = chart.points[t[i]];
+      corners[i] = Vec2{(std::cos(angle) * p.x - std::sin(angle) * p.y) * scale.cells_per_unit.x,
+                        (std::sin(angle) * p.x + std::cos(angle) * p.y) * scale.cells_per_unit.y} +
+                   raster.offset;
+    }
+    triangles.push_back(corners);
+  }
+  int covered = 0;
+  for (int y = -1; y <= raster.height; ++y) {
+    for (int x = -1; x <= raster.width; ++x) {
+      const bool within = x >= 0 && y >= 0 && x < raster.width && y < raster.height;
+      const int expected = oracle(triangles, scale.coverage, scale.growth, x, y);
+      const bool got = within && raster.rows.bits.test(y, x);
+      if (within) {
+        ASSERT_EQ(raster.columns.bits.test(x, y), got) << "views differ at " << x << "," << y;
+      }
+      covered += got;
+      // The grown box touches the sides of its outermost cells: outside of them nothing is meant.
+      if (within && expected >= 0) {
+        ASSERT_EQ(got, expected == 1) << "cell " << x << "," << y;
+      }
+      if (!within && scale.growth > 0) {
+        ASSERT_NE(expected, 1) << "cell " << x << "," << y;
+      }
+    }
+  }
+  EXPECT_EQ(raster.cells, covered);
+}
+
+class RasterOracle : public ::testing::TestWithParam<Coverage> {};
+
+TEST_P(RasterOracle, RandomStarsAndArcs) {
+  std::mt19937_64 random(1);
+  for (int i = 0; i < 60; ++i) {
+    const Chart chart =
+        i % 2 == 0 ? test::star(random, 4 + i % 17, 0.2, 1)
+                   : test::arc(1, uniform(random, 0.01, 0.5), uniform(random, 0.5, 6.2), 30);
+    const double size = uniform(random, 1, 24);
+    const double growth = i % 3 == 0 ? 0 : uniform(random, 0.05, 2.5);
+    const RasterScale scale{{size, size * uniform(random, 0.95, 1.05)}, growth, GetParam()};
+    compare_with_oracle(chart, scale, uniform(random, -7, 7));
+    if (HasFatalFailure()) FAIL() << "round " << i;
+  }
+}
+
+TEST_P(RasterOracle, RandomSoupsOfBothWindings) {
+  std::mt19937_64 random(2);
+  for (int i = 0; i < 40; ++i) {
+    const Chart chart = test::soup(random, 8, 2 + i % 9);
+    const double size = uniform(random, 2, 20);
+    const RasterScale scale{{size, size}, i % 2 == 0 ? 0 : uniform(random, 0.05, 1.5), GetParam()};
+    compare_with_oracle(chart, scale, uniform(random, -7, 7));
+    if (HasFatalFailure()) FAIL() << "round " << i;
+  }
+}
+
+TEST_P(RasterOracle, WiderThanAWord) {
+  std::mt19937_64 random(3);
+  const Chart chart = test::star(random, 40, 0.3, 1);
+  compare_with_oracle(chart, {{75, 75}, 0.7, GetParam()}, 0.3);
+}
+
+INSTANTIATE_TEST_SUITE_P(Coverages, RasterOracle,
+                         ::testing::Values(Coverage::center, Coverage::conservative),
+                         [](const auto& suite) {
+                           return suite.param == Coverage::center ? "center" : "conservative";
+                         });
+
+TEST(Raster, HorizonsAndHollowOfAnArc) {
+  const ChartRaster raster = rasterize(make_raster_shape(test::arc(1, 0.3, 5, 60)),
+                                       {{20, 20}, 0, Coverage::conservative}, 0);
+  std::int32_t hollow = 0, filled = 0, first = 0, last = 0;
+  for (int x = 0; x < raster.width; ++x) {
+    int low = raster.height, high = -1, count = 0;
+    for (int y = 0; y < raster.height; ++y) {
+      if (!raster.rows.bits.test(y, x)) continue;
+      low = std::min(low, y);
+      high = y;
+      ++count;
+    }
+    ASSERT_GT(count, 0);
+    EXPECT_EQ(raster.columns.first[static_cast<std::size_t>(x)], low);
+    EXPECT_EQ(raster.columns.last[static_cast<std::size_t>(x)], high);
+    hollow += high - low + 1 - count;
+    ++filled;
+    first += low;
+    last += high;
+  }
+  EXPECT_EQ(raster.columns.hollow, hollow);
+  EXPECT_GT(hollow, 0);
+  EXPECT_EQ(raster.columns.filled_lanes, filled);
+  EXPECT_EQ(raster.columns.sum_first, first);
+  EXPECT_EQ(raster.columns.sum_last, last);
+}
+
+TEST(Raster, TinyChartStillCoversACell) {
+  const ChartRaster raster =
+      rasterize(make_raster_shape(test::rectangle(1, 1)), {{0.01, 0.01}, 0, Coverage::center}, 0.5);
+  EXPECT_EQ(raster.cells, 1);
+}
+
+TEST(Raster, TooLongIsNotMade) {
+  const ChartRaster raster =
+      rasterize(make_raster_shape(test::rectangle(1e9, 1)), {{1, 1}, 0, Coverage::center}, 0, 4096);
+  EXPECT_EQ(raster.width, 0);
+}
+
+TEST(Bits, TransposeTwiceIsTheSame) {
+  std::mt19937_64 random(4);
+  for (int i = 0; i < 20; ++i) {
+    BitLanes lanes(1 + static_cast<int>(random() % 200), 1 + static_cast<int>(random() % 200));
+    for (int k = 0; k < 500; ++k) {
+      lanes.set(static_cast<int>(random() % static_cast<unsigned>(lanes.lanes)),
+                static_cast<int>(random() % static_cast<unsigned>(lanes.length)));
+    }
+    const BitLanes other = transposed(lanes);
+    for (int a = 0; a < lanes.lanes; ++a) {
+      for (int b = 0; b < lanes.length; ++b) ASSERT_EQ(lanes.test(a, b), other.test(b, a));
+    }
+    EXPECT_EQ(transposed(other).bits, lanes.bits);
+  }
+}
+
+TEST(Bits, RunsSpansAndSearches) {
+  std::mt19937_64 random(5);
+  for (int i = 0; i < 200; ++i) {
+    const int length = 1 + static_cast<int>(random() % 150);
+    BitLanes lanes(1, length);
+    std::vector<bool> plain(static_cast<std::size_t>(length));
+    for (int k = 0; k < 4; ++k) {
+      const int begin = static_cast<int>(random() % static_cast<unsigned>(length));
+      const int end =
+          begin + 1 + static_cast<int>(random() % static_cast<unsigned>(length - begin));
+      if (k % 2 == 0 || end - begin < 20) {
+        set_span(lanes.lane(0), begin, end);
+        std::fill(plain.begin() + begin, plain.begin() + end, true);
+      }
+    }
+    std::vector<bool> rebuilt(static_cast<std::size_t>(length));
+    int previous_end = -1;
+    for_each_run(lanes.lane(0), length, [&](int begin, int end) {
+      EXPECT_GT(begin, previous_end);
+      EXPECT_LT(begin, end);
+      std::fill(rebuilt.begin() + begin, rebuilt.begin() + end, true);
+      previous_end = end;
+    });
+    EXPECT_EQ(rebuilt, plain);
+    EXPECT_EQ(last_set(lanes.lane(0), length), previous_end - 1);
+  }
+}
+
+}  // namespace
+}  // namespace wrapatlas

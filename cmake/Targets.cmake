@@ -9,6 +9,10 @@ function(wrapatlas_compile_options target)
   endif()
   # The same bits on every machine: no fused multiply-add behind the source's back.
   target_compile_options(${target} PRIVATE -ffp-contract=off)
+  # Popcount and rounding in hardware: every x86 processor since 2009.
+  if(CMAKE_SYSTEM_PROCESSOR STREQUAL "x86_64")
+    target_compile_options(${target} PRIVATE -march=x86-64-v2)
+  endif()
   if(WRAPATLAS_SANITIZE)
     target_compile_options(${target} PRIVATE -fsanitize=${WRAPATLAS_SANITIZE}
                            -fno-omit-frame-pointer -fno-sanitize-recover=all)

@@ -11,8 +11,8 @@
 #include <algorithm>
 #include <numeric>
 
-#include "pack/drop.h"
 #include "pack/placer.h"
+#include "pack/skyline.h"
 
 namespace wrapatlas {
 
@@ -26,7 +26,7 @@ bool place_lprm02(const PlaceTask& task, std::vector<CellPlacement>& placements)
   for (const std::uint32_t chart : by_height) {
     if (task.stop()) return false;
     const ChartRaster& raster = task.rasters(chart)[0];
-    const Drop drop = skyline.best_drop(raster);
+    const Rest drop = skyline.best_drop(raster);
     if (drop.shift < 0) return false;
     placements[chart] = {0, drop.shift, drop.position};
     skyline.add(raster, drop.shift, drop.position);

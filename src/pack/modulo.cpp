@@ -171,45 +171,35 @@ class ModuloPlacer {
 
  private:
   void try_direction(const Direction& direction, const Silhouette& chart, bool along_y) {
-    along_y_now_ = along_y;
-    shifts_ = direction.shifts(chart);
-    if (shifts_ <= 0) return;
+    const int shifts = direction.shifts(chart);
+    if (shifts <= 0) return;
+    const auto try_side = [&](const Channel& channel, Side side, bool outer) {
+      consider(direction, chart, best_rest(channel, chart, range_, 0, shifts, side), along_y,
+               outer);
+    };
     if (task_.inner) {
-      slide(direction.inner(), chart, shifts_, range_);
-      take_best(direction, direction.inner(), chart, false, false);
-      take_best(direction, direction.inner(), chart, true, false);
+      slide(direction.inner(), chart, shifts, range_);
+      try_side(direction.inner(), Side::low, false);
+      try_side(direction.inner(), Side::high, false);
     }
-    slide(direction.outer_normal(), chart, shifts_, range_);
-    take_best(direction, direction.outer_normal(), chart, false, true);
-    if (!direction.shares_outer()) slide(direction.outer_mirrored(), chart, shifts_, range_);
-    take_best(direction, direction.outer_mirrored(), chart, true, true);
+    slide(direction.outer_normal(), chart, shifts, range_);
+    try_side(direction.outer_normal(), Side::low, true);
+    if (!direction.shares_outer()) slide(direction.outer_mirrored(), chart, shifts, range_);
+    try_side(direction.outer_mirrored(), Side::high, true);
   }
 
-  /// One strategy: the first shift of least wasted space.
-  void take_best(const Direction& direction, const Channel& channel, const Silhouette& chart,
-                 bool mirrored, bool outer) {
-    std::int32_t least = std::numeric_limits<std::int32_t>::max();
-    int shift = -1;
-    for (int s = 0; s < shifts_; ++s) {
-      const auto i = static_cast<std::size_t>(s);
-      if (range_.lowest[i] > range_.highest[i]) continue;
-      const std::int32_t gap = mirrored ? gap_above(channel, chart, s, range_.highest[i])
-                                        : gap_below(channel, chart, s, range_.lowest[i]);
-      if (gap < least) {
-        least = gap;
-        shift = s;
-      }
-    }
-    if (shift < 0) return;
-    const auto i = static_cast<std::size_t>(shift);
+  /// The best placement of one strategy against the best of those before.
+  void consider(const Direction& direction, const Silhouette& chart, const Rest& rest, bool along_y,
+                bool outer) {
+    if (rest.shift < 0) return;
     Candidate candidate;
-    candidate.waste = (least + chart.hollow) * (outer ? task_.lambda : 1.0);
+    candidate.waste = (rest.gap + chart.hollow) * (outer ? task_.lambda : 1.0);
     candidate.outer = outer;
-    candidate.shift = shift;
-    candidate.position = mirrored ? range_.highest[i] : range_.lowest[i];
-    candidate.growth = direction.growth(candidate.position, chart.bits.length);
+    candidate.shift = rest.shift;
+    candidate.position = rest.position;
+    candidate.growth = direction.growth(rest.position, chart.bits.length);
     candidate.rotation = rotation_;
-    candidate.along_y = along_y_now_;
+    candidate.along_y = along_y;
     if (candidate.better_than(best_)) best_ = candidate;
   }
 
@@ -219,8 +209,6 @@ class ModuloPlacer {
   SlideResult range_;
   Candidate best_;
   std::int32_t rotation_ = 0;
-  int shifts_ = 0;
-  bool along_y_now_ = true;
 };
 
 }  // namespace

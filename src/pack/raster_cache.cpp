@@ -14,15 +14,27 @@ std::span<const ChartRaster> ScaleRasters::of(std::size_t chart) {
   Slot& slot = slots_[chart];
   std::call_once(slot.once, [&] {
     const auto start = std::chrono::steady_clock::now();
-    slot.rasters.reserve(angles_[chart].size());
-    for (const double angle : angles_[chart]) {
-      slot.rasters.push_back(rasterize(shapes_[chart], scale_, angle, max_side_));
-    }
+    slot.rasters = rasters_at(angles_[chart], shapes_[chart]);
     nanoseconds_ += std::chrono::duration_cast<std::chrono::nanoseconds>(
                         std::chrono::steady_clock::now() - start)
                         .count();
   });
   return slot.rasters;
+}
+
+/// Uniform angles whose number is a multiple of four are rasterised over a quarter of the circle.
+std::vector<ChartRaster> ScaleRasters::rasters_at(const std::vector<double>& angles,
+                                                  const RasterShape& shape) const {
+  const bool square = scale_.cells_per_unit.x == scale_.cells_per_unit.y;
+  const std::size_t quarter = square && angles.size() % 4 == 0 ? angles.size() / 4 : angles.size();
+  std::vector<ChartRaster> rasters;
+  rasters.reserve(angles.size());
+  for (std::size_t i = 0; i < angles.size(); ++i) {
+    rasters.push_back(i < quarter ? rasterize(shape, scale_, angles[i], max_side_)
+                                  : quarter_turned(rasters[i - quarter]));
+    rasters.back().angle = angles[i];
+  }
+  return rasters;
 }
 
 double ScaleRasters::seconds() const { return static_cast<double>(nanoseconds_.load()) * 1e-9; }

@@ -29,8 +29,11 @@ class ScaleRasters {
     std::once_flag once;
     std::vector<ChartRaster> rasters;
   };
+  [[nodiscard]] std::vector<ChartRaster> rasters_at(const std::vector<double>& angles,
+                                                    const RasterShape& shape) const;
+
   std::span<const RasterShape> shapes_;
-  std::span<const std::vector<double>> angles_;
+  std::span<const std::vector<double>> angles_;  ///< per chart, uniform over the circle
   RasterScale scale_;
   int max_side_;
   std::vector<Slot> slots_;

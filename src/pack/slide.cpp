@@ -74,21 +74,38 @@ SlideFunction widest() {
 
 int padded(int shifts) { return (shifts + kTile - 1) / kTile * kTile; }
 
-std::int32_t window(const std::vector<std::int32_t>& sum, int begin, int count) {
-  return sum[static_cast<std::size_t>(begin + count)] - sum[static_cast<std::size_t>(begin)];
-}
-
-/// Sum over the chart's filled lanes; a prefix-sum look-up when all are filled.
-std::int32_t channel_sum(const std::vector<std::int16_t>& values,
-                         const std::vector<std::int32_t>& sums, const Silhouette& chart,
-                         int shift) {
-  if (chart.filled_lanes == chart.bits.lanes) return window(sums, shift, chart.bits.lanes);
+/// Sum of channel values over the chart's filled lanes, for charts with empty lanes.
+std::int32_t filled_sum(const std::vector<std::int16_t>& values, const Silhouette& chart,
+                        int shift) {
   std::int32_t sum = 0;
   for (int c = 0; c < chart.bits.lanes; ++c) {
     const auto i = static_cast<std::size_t>(c);
     if (chart.first[i] <= chart.last[i]) sum += values[static_cast<std::size_t>(shift + c)];
   }
   return sum;
+}
+
+/// gap(s) = sign * (base + lanes * position[s] - (sum[s + lanes] - sum[s])), for shifts that fit.
+/// Returns the least and its first shift. The tile is written to be vectorised.
+template <int kSign>
+void least_gap(const std::int16_t* lowest, const std::int16_t* highest, const std::int32_t* sum,
+               std::int32_t base, std::int32_t lanes, int begin, int end, Rest& rest) {
+  const std::int16_t* position = kSign > 0 ? lowest : highest;
+  alignas(64) std::int32_t gap[kTile];
+  for (int tile = begin; tile < end; tile += kTile) {
+    const int count = std::min(kTile, end - tile);
+    std::int32_t least = std::numeric_limits<std::int32_t>::max();
+    for (int k = 0; k < count; ++k) {
+      const int s = tile + k;
+      const std::int32_t value = kSign * (base + lanes * position[s] - (sum[s + lanes] - sum[s]));
+      gap[k] = lowest[s] <= highest[s] ? value : std::numeric_limits<std::int32_t>::max();
+      least = std::min(least, gap[k]);
+    }
+    if (least >= rest.gap) continue;
+    rest.gap = least;
+    rest.shift = tile + static_cast<int>(std::find(gap, gap + count, least) - gap);
+    rest.position = position[rest.shift];
+  }
 }
 
 }  // namespace
@@ -143,14 +160,31 @@ void slide(const Channel& channel, const Silhouette& chart, int shifts, SlideRes
            result.highest.data());
 }
 
-std::int32_t gap_below(const Channel& channel, const Silhouette& chart, int shift, int position) {
-  return chart.filled_lanes * position + chart.sum_first -
-         channel_sum(channel.low, channel.low_sum, chart, shift);
-}
-
-std::int32_t gap_above(const Channel& channel, const Silhouette& chart, int shift, int position) {
-  return channel_sum(channel.high, channel.high_sum, chart, shift) -
-         chart.filled_lanes * (position + 1) - chart.sum_last;
+Rest best_rest(const Channel& channel, const Silhouette& chart, const SlideResult& range, int begin,
+               int end, Side side) {
+  Rest rest;
+  const bool low = side == Side::low;
+  const std::int32_t lanes = chart.filled_lanes;
+  const std::int32_t base = low ? chart.sum_first : lanes + chart.sum_last;
+  if (lanes == chart.bits.lanes) {
+    if (low) {
+      least_gap<1>(range.lowest.data(), range.highest.data(), channel.low_sum.data(), base, lanes,
+                   begin, end, rest);
+    } else {
+      least_gap<-1>(range.lowest.data(), range.highest.data(), channel.high_sum.data(), base, lanes,
+                    begin, end, rest);
+    }
+    return rest;
+  }
+  for (int s = begin; s < end; ++s) {
+    const auto i = static_cast<std::size_t>(s);
+    if (range.lowest[i] > range.highest[i]) continue;
+    const int position = low ? range.lowest[i] : range.highest[i];
+    const std::int32_t sum = filled_sum(low ? channel.low : channel.high, chart, s);
+    const std::int32_t gap = (low ? 1 : -1) * (base + lanes * position - sum);
+    if (gap < rest.gap) rest = {gap, s, position};
+  }
+  return rest;
 }
 
 }  // namespace wrapatlas

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "raster/chart_raster.h"
@@ -41,8 +42,21 @@ SlideFunction slide_scalar();
 SlideFunction slide_avx2();
 SlideFunction slide_avx512();
 
-/// Sum of gaps under (over) the chart, the green area of Fig. 4, at a shift and position.
-std::int32_t gap_below(const Channel& channel, const Silhouette& chart, int shift, int position);
-std::int32_t gap_above(const Channel& channel, const Silhouette& chart, int shift, int position);
+/// The side of a channel that a chart rests against.
+enum class Side { low, high };
+
+/// Where a chart comes to rest.
+struct Rest {
+  std::int32_t gap =
+      std::numeric_limits<std::int32_t>::max();  ///< free cells between, Fig. 4 green
+  int shift = -1;                                ///< -1: it fits nowhere
+  int position = 0;
+};
+
+/// The first shift in [begin, end) of least gap between the chart and that side of the channel:
+///   low:  sum over filled lanes c of lowest[s] + first[c] - low[s + c]
+///   high: sum over filled lanes c of high[s + c] - 1 - last[c] - highest[s]
+Rest best_rest(const Channel& channel, const Silhouette& chart, const SlideResult& range, int begin,
+               int end, Side side);
 
 }  // namespace wrapatlas

@@ -10,8 +10,8 @@
 
 #include <limits>
 
-#include "pack/drop.h"
 #include "pack/placer.h"
+#include "pack/skyline.h"
 
 namespace wrapatlas {
 
@@ -24,9 +24,9 @@ bool place_swg03(const PlaceTask& task, std::vector<CellPlacement>& placements) 
     std::int32_t least = std::numeric_limits<std::int32_t>::max();
     CellPlacement& best = placements[chart];
     for (std::size_t i = 0; i < rasters.size(); ++i) {
-      const Drop drop = skyline.best_drop(rasters[i]);
-      if (drop.shift < 0 || drop.waste + rasters[i].columns.hollow >= least) continue;
-      least = drop.waste + rasters[i].columns.hollow;
+      const Rest drop = skyline.best_drop(rasters[i]);
+      if (drop.shift < 0 || drop.gap + rasters[i].columns.hollow >= least) continue;
+      least = drop.gap + rasters[i].columns.hollow;
       best = {static_cast<std::int32_t>(i), drop.shift, drop.position};
     }
     if (best.rotation < 0) return false;

@@ -14,8 +14,8 @@
 #include <limits>
 
 #include "pack/board.h"
-#include "pack/drop.h"
 #include "pack/placer.h"
+#include "pack/slide.h"
 
 namespace wrapatlas {
 namespace {
@@ -76,10 +76,11 @@ class FourSides {
         if (size > across_limit || chart.bits.length > along_limit) continue;
         const int a = across.begin, b = across.end - size;
         const int begin = std::min(a, b), end = std::max(a, b) + 1;
-        const Drop drop = up ? drop_up(channel, chart, begin, end, scratch_)
-                             : drop_down(channel, chart, begin, end, scratch_);
-        if (drop.shift < 0 || drop.waste + chart.hollow >= choice.waste) continue;
-        choice.waste = drop.waste + chart.hollow;
+        slide(channel, chart, end, range_);
+        const Rest drop =
+            best_rest(channel, chart, range_, begin, end, up ? Side::high : Side::low);
+        if (drop.shift < 0 || drop.gap + chart.hollow >= choice.waste) continue;
+        choice.waste = drop.gap + chart.hollow;
         choice.placement = {static_cast<std::int32_t>(i), along_y ? drop.shift : drop.position,
                             along_y ? drop.position : drop.shift};
       }
@@ -116,7 +117,7 @@ class FourSides {
   Board board_;
   Channel channel_x_, channel_y_;
   Span extent_x_, extent_y_;
-  SlideResult scratch_;
+  SlideResult range_;
 };
 
 }  // namespace

@@ -42,14 +42,6 @@ inline Interval segment_at(Vec2 a, Vec2 b, double y) {
   return {x, x};
 }
 
-/// x extent of a disc between the heights `bottom` and `top`.
-inline Interval disc_between(Vec2 centre, double radius, double bottom, double top) {
-  const double away = std::max({bottom - centre.y, centre.y - top, 0.0});
-  if (away > radius) return {};
-  const double half = std::sqrt(radius * radius - away * away);
-  return {centre.x - half, centre.x + half};
-}
-
 /// Sets the cells of row y that the interval enters.
 inline void set_entered(BitLanes& rows, int y, const Interval& x) {
   if (x.empty()) return;

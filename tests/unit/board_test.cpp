@@ -122,16 +122,59 @@ TEST(Slide, EveryVersionAgreesWithTheDefinition) {
         }
         ASSERT_EQ(lowest[static_cast<std::size_t>(s)], low);
         ASSERT_EQ(highest[static_cast<std::size_t>(s)], high);
-        int below = 0, above = 0;
+      }
+    }
+  }
+}
+
+TEST(Slide, BestRestIsTheFirstOfLeastGap) {
+  std::mt19937_64 random(13);
+  for (int round = 0; round < 80; ++round) {
+    ChartRaster chart = random_raster(random, 40);
+    if (round % 4 == 0) {  // an empty lane, as a stack of separate charts can have
+      Silhouette& columns = chart.columns;
+      const std::size_t lane = columns.first.size() / 2;
+      if (columns.first.size() < 3) continue;
+      columns.sum_first -= columns.first[lane];
+      columns.sum_last -= columns.last[lane];
+      --columns.filled_lanes;
+      columns.first[lane] = 1;
+      columns.last[lane] = 0;
+    }
+    Channel channel;
+    const int lanes = chart.width + 150;
+    channel.resize(lanes, chart.width);
+    for (int i = 0; i < lanes; ++i) {
+      const auto low = static_cast<std::int16_t>(random() % 10);
+      channel.low[static_cast<std::size_t>(i)] = low;
+      channel.high[static_cast<std::size_t>(i)] =
+          static_cast<std::int16_t>(low + chart.height + random() % 20);
+    }
+    channel.extend();
+    SlideResult range;
+    slide(channel, chart.columns, lanes, range);
+    const int begin = round % 3 == 0 ? 0 : 7, end = lanes - static_cast<int>(random() % 60);
+    for (const Side side : {Side::low, Side::high}) {
+      Rest expected;
+      for (int s = begin; s < end; ++s) {
+        const auto k = static_cast<std::size_t>(s);
+        if (range.lowest[k] > range.highest[k]) continue;
+        const int position = side == Side::low ? range.lowest[k] : range.highest[k];
+        std::int32_t gap = 0;
         for (int c = 0; c < chart.width; ++c) {
           const auto lane = static_cast<std::size_t>((s + c) % lanes);
           const auto i = static_cast<std::size_t>(c);
-          below += low + chart.columns.first[i] - channel.low[lane];
-          above += channel.high[lane] - 1 - (high + chart.columns.last[i]);
+          if (chart.columns.first[i] > chart.columns.last[i]) continue;
+          gap += side == Side::low ? position + chart.columns.first[i] - channel.low[lane]
+                                   : channel.high[lane] - 1 - (position + chart.columns.last[i]);
         }
-        ASSERT_EQ(gap_below(channel, chart.columns, s, low), below);
-        ASSERT_EQ(gap_above(channel, chart.columns, s, high), above);
+        if (gap < expected.gap) expected = {gap, s, position};
       }
+      const Rest rest = best_rest(channel, chart.columns, range, begin, end, side);
+      ASSERT_EQ(rest.shift, expected.shift);
+      if (expected.shift < 0) continue;
+      ASSERT_EQ(rest.gap, expected.gap);
+      ASSERT_EQ(rest.position, expected.position);
     }
   }
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numbers>
 
 #include "support/shapes.h"
 
@@ -78,9 +79,50 @@ int oracle(const std::vector<std::array<Vec2, 3>>& triangles, Coverage coverage,
   return growth > 0 ? least < growth : least == 0;
 }
 
+void check_horizons(const Silhouette& view) {
+  std::int32_t hollow = 0, filled = 0, sum_first = 0, sum_last = 0;
+  for (int lane = 0; lane < view.bits.lanes; ++lane) {
+    int first = -1, last = -1, count = 0;
+    for (int i = 0; i < view.bits.length; ++i) {
+      if (!view.bits.test(lane, i)) continue;
+      if (first < 0) first = i;
+      last = i;
+      ++count;
+    }
+    const auto k = static_cast<std::size_t>(lane);
+    if (first < 0) {
+      EXPECT_GT(view.first[k], view.last[k]);
+      continue;
+    }
+    EXPECT_EQ(view.first[k], first);
+    EXPECT_EQ(view.last[k], last);
+    hollow += last - first + 1 - count;
+    ++filled;
+    sum_first += first;
+    sum_last += last;
+  }
+  EXPECT_EQ(view.hollow, hollow);
+  EXPECT_EQ(view.filled_lanes, filled);
+  EXPECT_EQ(view.sum_first, sum_first);
+  EXPECT_EQ(view.sum_last, sum_last);
+}
+
+void compare_with_oracle(const Chart& chart, const RasterScale& scale, const ChartRaster& raster);
+
+/// The raster at an angle, and its three quarter turns.
 void compare_with_oracle(const Chart& chart, const RasterScale& scale, double angle) {
-  const RasterShape shape = make_raster_shape(chart);
-  const ChartRaster raster = rasterize(shape, scale, angle);
+  ChartRaster raster = rasterize(make_raster_shape(chart), scale, angle);
+  raster.angle = angle;
+  compare_with_oracle(chart, scale, raster);
+  for (int turn = 1; turn < 4 && scale.cells_per_unit.x == scale.cells_per_unit.y; ++turn) {
+    raster = quarter_turned(raster);
+    raster.angle = angle + turn * std::numbers::pi / 2;
+    compare_with_oracle(chart, scale, raster);
+  }
+}
+
+void compare_with_oracle(const Chart& chart, const RasterScale& scale, const ChartRaster& raster) {
+  const double angle = raster.angle;
   std::vector<std::array<Vec2, 3>> triangles;
   for (const auto& t : chart.triangles) {
     std::array<Vec2, 3> corners;
@@ -112,6 +154,7 @@ void compare_with_oracle(const Chart& chart, const RasterScale& scale, double an
     }
   }
   EXPECT_EQ(raster.cells, covered);
+  for (const Silhouette* view : {&raster.columns, &raster.rows}) check_horizons(*view);
 }
 
 class RasterOracle : public ::testing::TestWithParam<Coverage> {};
@@ -152,33 +195,6 @@ INSTANTIATE_TEST_SUITE_P(Coverages, RasterOracle,
                          [](const auto& suite) {
                            return suite.param == Coverage::center ? "center" : "conservative";
                          });
-
-TEST(Raster, HorizonsAndHollowOfAnArc) {
-  const ChartRaster raster = rasterize(make_raster_shape(test::arc(1, 0.3, 5, 60)),
-                                       {{20, 20}, 0, Coverage::conservative}, 0);
-  std::int32_t hollow = 0, filled = 0, first = 0, last = 0;
-  for (int x = 0; x < raster.width; ++x) {
-    int low = raster.height, high = -1, count = 0;
-    for (int y = 0; y < raster.height; ++y) {
-      if (!raster.rows.bits.test(y, x)) continue;
-      low = std::min(low, y);
-      high = y;
-      ++count;
-    }
-    ASSERT_GT(count, 0);
-    EXPECT_EQ(raster.columns.first[static_cast<std::size_t>(x)], low);
-    EXPECT_EQ(raster.columns.last[static_cast<std::size_t>(x)], high);
-    hollow += high - low + 1 - count;
-    ++filled;
-    first += low;
-    last += high;
-  }
-  EXPECT_EQ(raster.columns.hollow, hollow);
-  EXPECT_GT(hollow, 0);
-  EXPECT_EQ(raster.columns.filled_lanes, filled);
-  EXPECT_EQ(raster.columns.sum_first, first);
-  EXPECT_EQ(raster.columns.sum_last, last);
-}
 
 TEST(Raster, TinyChartStillCoversACell) {
   const ChartRaster raster =

@@ -1,0 +1,122 @@
+#include "wrapatlas/model.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <exception>
+#include <new>
+#include <utility>
+
+#include "io/atlas_fit.h"
+#include "io/file.h"
+#include "io/formats.h"
+
+namespace wrapatlas {
+namespace {
+
+struct Ending {
+  std::string_view text;
+  FileFormat format;
+};
+constexpr std::array<Ending, 6> kEndings{{{".obj", FileFormat::obj},
+                                          {".off", FileFormat::off},
+                                          {".ply", FileFormat::ply},
+                                          {".stl", FileFormat::stl},
+                                          {".gltf", FileFormat::gltf},
+                                          {".glb", FileFormat::glb}}};
+
+bool counts_v_downward(FileFormat format) {
+  return format == FileFormat::gltf || format == FileFormat::glb;
+}
+
+Result<Model> read(std::string bytes, FileFormat format, std::string_view name,
+                   const std::filesystem::path& base, const LoadOptions& options) {
+  switch (format) {
+    case FileFormat::obj:
+      return read_obj(std::move(bytes), name);
+    case FileFormat::off:
+      return read_off(std::move(bytes), name);
+    case FileFormat::ply:
+      return read_ply(std::move(bytes), name);
+    case FileFormat::stl:
+      return read_stl(std::move(bytes), name);
+    case FileFormat::gltf:
+    case FileFormat::glb:
+      break;
+  }
+  return read_gltf(std::move(bytes), format == FileFormat::glb, name, base, options);
+}
+
+Status write_new(FileFormat format, const std::filesystem::path& path, const Mesh& mesh,
+                 const AtlasMesh& atlas) {
+  switch (format) {
+    case FileFormat::obj:
+      return write_new_obj(path, mesh, atlas);
+    case FileFormat::ply:
+      return write_new_ply(path, mesh, atlas);
+    case FileFormat::gltf:
+    case FileFormat::glb:
+      return write_new_gltf(path, mesh, atlas, format == FileFormat::glb);
+    case FileFormat::off:
+    case FileFormat::stl:
+      break;
+  }
+  return Error{ErrorKind::usage, path.string(),
+               fmt::format("{} files cannot hold UVs", format == FileFormat::off ? "OFF" : "STL"),
+               "write .obj, .ply, .gltf or .glb"};
+}
+
+}  // namespace
+
+Result<FileFormat> format_from_path(const std::filesystem::path& path) {
+  std::string ending = path.extension().string();
+  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  for (const Ending& known : kEndings) {
+    if (ending == known.text) return known.format;
+  }
+  return Error{ErrorKind::usage, path.string(),
+               ending.empty() ? "the name has no ending that says its format"
+                              : fmt::format("the ending '{}' is not known", ending),
+               "use .obj, .off, .ply, .stl, .gltf or .glb"};
+}
+
+Result<Model> load_model(const std::filesystem::path& path, const LoadOptions& options) {
+  const Result<FileFormat> format = format_from_path(path);
+  if (!format) return format.error();
+  Result<std::string> bytes = read_file(path);
+  if (!bytes) return bytes.error();
+  return load_model_bytes(*std::move(bytes), *format, path.string(), path.parent_path(), options);
+}
+
+Result<Model> load_model_bytes(std::string bytes, FileFormat format, std::string_view name,
+                               const std::filesystem::path& base, const LoadOptions& options) {
+  Result<Model> model = read(std::move(bytes), format, name, base, options);
+  if (!model) return model.error();
+  if (Status valid = validate_mesh(model->mesh); !valid) {
+    Error error = valid.error();
+    error.where = fmt::format("{}: {}", name, error.where);
+    return error;
+  }
+  if (model->mesh.face_count() == 0) {
+    return Error{ErrorKind::input, std::string(name), "the file holds no faces",
+                 "export the mesh again with its faces"};
+  }
+  return model;
+}
+
+Status save_model(const Model& model, const AtlasMesh& atlas, const std::filesystem::path& path) {
+  const Result<FileFormat> format = format_from_path(path);
+  if (!format) return format.error();
+  if (Status fits = check_fit(model.mesh, atlas); !fits) return fits;
+  if (*format == model.format && model.source) {
+    return model.source->save(path, model.mesh, atlas);
+  }
+  if (counts_v_downward(*format) != model.v_points_down) {
+    return write_new(*format, path, model.mesh, turn_upside_down(atlas));
+  }
+  return write_new(*format, path, model.mesh, atlas);
+}
+
+}  // namespace wrapatlas

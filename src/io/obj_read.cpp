@@ -1,0 +1,176 @@
+// Wavefront OBJ: polygons with positions and UVs. Everything else stays in the bytes, which are
+// kept to write the file back.
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "io/file.h"
+#include "io/formats.h"
+#include "io/number.h"
+#include "io/obj_lines.h"
+#include "io/obj_write.h"
+
+namespace wrapatlas {
+namespace {
+
+struct ObjSource final : Model::Source {
+  explicit ObjSource(std::string file) : bytes(std::move(file)) {}
+  Status save(const std::filesystem::path& path, const Mesh& mesh,
+              const AtlasMesh& atlas) const override {
+    return write_file(path, rewrite_obj(bytes, mesh, atlas));
+  }
+  std::string bytes;
+};
+
+class ObjReader {
+ public:
+  ObjReader(std::string_view bytes, std::string_view name) : bytes_(bytes), name_(name) {}
+
+  Result<Mesh> read() {
+    ObjLines lines(bytes_);
+    for (ObjLine line; lines.next(line);) {
+      ObjWords words(line.text);
+      bool fine = true;
+      switch (obj_keyword(words.next())) {
+        case ObjKeyword::v:
+          fine = read_position(words);
+          break;
+        case ObjKeyword::vt:
+          fine = read_texcoord(words);
+          break;
+        case ObjKeyword::vn:
+          ++normal_count_;
+          break;
+        case ObjKeyword::f:
+          fine = read_face(words);
+          break;
+        default:
+          break;
+      }
+      if (!fine) return error_at(line.number);
+    }
+    return check_forward_references();
+  }
+
+ private:
+  bool fail(std::string what, std::string remedy) {
+    what_ = std::move(what);
+    remedy_ = std::move(remedy);
+    return false;
+  }
+  Error error_at(std::size_t line) {
+    return {ErrorKind::input, fmt::format("{}:{}", name_, line), what_, remedy_};
+  }
+
+  bool bad_coordinate(std::string_view word) {
+    if (word.empty()) return fail("a coordinate is missing", "export the mesh again");
+    return fail(fmt::format("'{}' is not a usable coordinate", word.substr(0, 40)),
+                "export the mesh again without NaN, infinite or huge values");
+  }
+
+  bool read_position(ObjWords& words) {
+    Vec3 p;
+    for (double* value : {&p.x, &p.y, &p.z}) {
+      const std::string_view word = words.next();
+      if (!parse_coordinate(word, *value)) return bad_coordinate(word);
+    }
+    mesh_.positions.push_back(p);
+    return mesh_.positions.size() < kNone || fail("there are too many vertices", "split the file");
+  }
+
+  bool read_texcoord(ObjWords& words) {
+    Vec2 uv;
+    const std::string_view u = words.next(), v = words.next();
+    if (!parse_coordinate(u, uv.x)) return bad_coordinate(u);
+    if (!v.empty() && !parse_coordinate(v, uv.y)) return bad_coordinate(v);
+    mesh_.texcoords.push_back(uv);
+    return mesh_.texcoords.size() < kNone || fail("there are too many UVs", "split the file");
+  }
+
+  // Items may be defined after the face that uses them, so only the kind of number is checked here.
+  bool read_index(std::string_view text, std::size_t count, std::uint32_t& index) {
+    const std::int64_t parsed = obj_index(text, count);
+    index = static_cast<std::uint32_t>(parsed);
+    if (parsed >= 0 && parsed < kNone) return true;
+    return fail(fmt::format("'{}' is not a valid index", text.substr(0, 40)),
+                "export the mesh again");
+  }
+
+  bool read_face(ObjWords& words) {
+    const std::size_t begin = mesh_.corner_position.size();
+    for (std::string_view word = words.next(); !word.empty(); word = words.next()) {
+      const ObjCorner corner = split_corner(word);
+      std::uint32_t position = 0, texcoord = kNone, normal = 0;
+      if (!read_index(corner.v, mesh_.positions.size(), position)) return false;
+      if (!corner.vt.empty() && !read_index(corner.vt, mesh_.texcoords.size(), texcoord)) {
+        return false;
+      }
+      if (!corner.vn.empty()) {
+        if (!read_index(corner.vn, normal_count_, normal)) return false;
+        if (normal >= normals_needed_) {
+          normals_needed_ = normal + std::size_t{1};
+          face_of_last_normal_ = mesh_.face_count();
+        }
+      }
+      mesh_.corner_position.push_back(position);
+      mesh_.corner_texcoord.push_back(texcoord);
+    }
+    const std::size_t corners = mesh_.corner_position.size();
+    if (corners < begin + 3) {
+      return fail(fmt::format("a face needs three corners and has {}", corners - begin),
+                  "remove the face");
+    }
+    if (corners >= kNone) return fail("there are too many faces", "split the file");
+    mesh_.face_begin.push_back(static_cast<std::uint32_t>(corners));
+    return true;
+  }
+
+  Result<Mesh> check_forward_references() {
+    for (std::size_t face = 0; face < mesh_.face_count(); ++face) {
+      for (std::uint32_t c = mesh_.face_begin[face]; c < mesh_.face_begin[face + 1]; ++c) {
+        const std::uint32_t position = mesh_.corner_position[c];
+        const std::uint32_t texcoord = mesh_.corner_texcoord[c];
+        if (position >= mesh_.positions.size()) {
+          return out_of_range(face, "vertex", position, mesh_.positions.size());
+        }
+        if (texcoord != kNone && texcoord >= mesh_.texcoords.size()) {
+          return out_of_range(face, "texture coordinate", texcoord, mesh_.texcoords.size());
+        }
+      }
+    }
+    if (normals_needed_ > normal_count_) {
+      return out_of_range(face_of_last_normal_, "normal", normals_needed_ - 1, normal_count_);
+    }
+    return std::move(mesh_);
+  }
+
+  Error out_of_range(std::size_t face, const char* kind, std::size_t index, std::size_t count) {
+    fail(fmt::format("the face refers to {} {} of {}", kind, index + 1, count),
+         "export the mesh again");
+    ObjLines lines(bytes_);
+    for (ObjLine line; lines.next(line);) {
+      if (obj_keyword(ObjWords(line.text).next()) != ObjKeyword::f) continue;
+      if (face-- == 0) return error_at(line.number);
+    }
+    return error_at(0);
+  }
+
+  std::string_view bytes_, name_;
+  Mesh mesh_;
+  std::size_t normal_count_ = 0, normals_needed_ = 0, face_of_last_normal_ = 0;
+  std::string what_, remedy_;
+};
+
+}  // namespace
+
+Result<Model> read_obj(std::string bytes, std::string_view name) {
+  Result<Mesh> mesh = ObjReader(bytes, name).read();
+  if (!mesh) return mesh.error();
+  Model model;
+  model.mesh = *std::move(mesh);
+  model.format = FileFormat::obj;
+  model.source = std::make_unique<ObjSource>(std::move(bytes));
+  return model;
+}
+
+}  // namespace wrapatlas

@@ -37,7 +37,7 @@ class Extender {
           {name, *accessor, extended_attribute(*accessor, name, is_target, layer_.extra())});
     }
     if (!is_target) blend_skins(arrays);
-    for (Attribute& array : arrays) attributes[array.name] = add(std::move(array));
+    for (Attribute& array : arrays) attributes[array.name] = add(array);
     return Done{};
   }
 
@@ -65,7 +65,7 @@ class Extender {
     if (!sets.empty() && !layer_.extra().blends.empty()) blend_skin(sets, layer_.extra());
   }
 
-  std::uint64_t add(Attribute array) {
+  std::uint64_t add(Attribute& array) {
     Json json = edit_.json["accessors"][array.accessor.index];
     json.erase("byteOffset");
     json.erase("sparse");

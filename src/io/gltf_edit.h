@@ -1,0 +1,76 @@
+// Changing the arrays of a glTF: new accessors in, dead ones out, everything else where it was.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "io/gltf_accessor.h"
+#include "io/gltf_json.h"
+
+namespace wrapatlas {
+
+enum class GltfTarget : std::uint16_t { vertices = 34962, indices = 34963 };
+
+/// The bytes of a buffer as it will be written, in pieces.
+struct GltfPieces {
+  std::vector<std::string_view> pieces;
+  std::uint64_t size = 0;
+
+  void add(std::string_view piece) {
+    if (piece.empty()) return;
+    pieces.push_back(piece);
+    size += piece.size();
+  }
+  /// Adds zeros until the size is `remainder` modulo `alignment` (at most 8).
+  void pad(std::uint64_t alignment, std::uint64_t remainder = 0);
+  void append_to(std::string& bytes) const {
+    for (const std::string_view piece : pieces) bytes += piece;
+  }
+};
+
+/// A copy of a file's JSON, to be changed, and its new buffers.
+///
+/// No accessor or buffer view is renumbered, since extensions we do not know may refer to them:
+/// new ones take the places of those that died, or are appended.
+class GltfEdit {
+ public:
+  explicit GltfEdit(const GltfFile& file);
+
+  Json json;  ///< accessors and buffer views are for this class to change
+
+  /// Adds an accessor in a buffer view of its own. `accessor` has all its members but bufferView;
+  /// each element takes `stride` bytes of `bytes`. Its number holds until finish().
+  std::uint64_t add_accessor(Json accessor, std::string bytes, std::size_t stride,
+                             GltfTarget target);
+
+  /// Drops what only the old data needed, and lays out the buffers. Call it once, last.
+  void finish();
+
+  /// Per buffer, after finish(). They look at `file` and at this object.
+  [[nodiscard]] const std::vector<GltfPieces>& buffers() const { return buffers_; }
+  [[nodiscard]] GltfBuffer::Storage storage(std::size_t buffer) const { return storage_[buffer]; }
+
+ private:
+  struct NewView {
+    std::string bytes;
+    std::uint64_t view = 0;  ///< its number
+  };
+
+  void drop_stale_extensions();
+  std::vector<std::uint64_t> move_into(const char* directory, std::uint64_t first_new,
+                                       std::vector<std::uint64_t> dead);
+  void lay_out(const std::vector<bool>& view_died);
+  void copy_live_ranges(std::uint64_t buffer, const std::vector<bool>& view_died);
+
+  const GltfFile& file_;
+  std::uint64_t old_accessors_, old_views_;
+  std::vector<NewView> new_views_;
+  std::vector<std::uint64_t> final_number_;  ///< of accessors, after dead ones were replaced
+  std::vector<GltfPieces> buffers_;
+  std::vector<GltfBuffer::Storage> storage_;
+};
+
+}  // namespace wrapatlas

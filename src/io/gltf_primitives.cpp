@@ -1,0 +1,233 @@
+#include "io/gltf_primitives.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace wrapatlas {
+namespace {
+
+constexpr std::uint64_t kStrip = 5, kFan = 6, kTriangles = 4;
+
+class Reader {
+ public:
+  Reader(GltfContents& contents, Mesh& mesh)
+      : contents_(contents),
+        file_(contents.file),
+        mesh_(mesh),
+        most_(std::max<std::uint64_t>(1U << 24U, 16 * contents.file.byte_count)),
+        position_base_(array_member(file_.json, "accessors").size(), kNone),
+        texcoord_base_(position_base_) {
+    most_ = std::min<std::uint64_t>(most_, kNone - 1);
+  }
+
+  Status read_all() {
+    const Json& meshes = array_member(file_.json, "meshes");
+    for (std::uint32_t m = 0; m < meshes.size(); ++m) {
+      const Json& primitives = array_member(meshes[m], "primitives");
+      for (std::uint32_t p = 0; p < primitives.size(); ++p) {
+        place_ = fmt::format("mesh {}, primitive {}", m, p);
+        const Json& json = primitives[p];
+        if (!json.is_object()) return file_.error(place_, "it is not an object");
+        GltfPrimitive primitive;
+        primitive.mesh = m;
+        primitive.primitive = p;
+        if (Status read = read_one(json, primitive); !read) return read;
+      }
+    }
+    return Done{};
+  }
+
+  void remark(std::vector<std::string>& remarks) const {
+    const auto add = [&](std::size_t count, std::string_view what) {
+      if (count != 0) remarks.push_back(fmt::format("{} {}", count, what));
+    };
+    add(not_triangles_, "primitives of points or lines are left as they are");
+    add(without_position_, "primitives without POSITION are left as they are");
+    if (without_texcoords_ != 0) {
+      remarks.push_back(
+          fmt::format("{} faces in {} primitives have no {}: they are left as they are",
+                      faces_without_texcoords_, without_texcoords_, contents_.texcoord_name));
+    }
+    add(ragged_, "primitives end in the middle of a triangle: the rest is ignored");
+    add(draco_, "primitives have a Draco copy of their data: it is dropped where UVs change");
+    add(moving_texcoords_,
+        "primitives have morph targets that move the UVs: these stay as they are");
+  }
+
+ private:
+  Status read_one(const Json& json, GltfPrimitive& primitive) {
+    const auto mode = integer_member(json, "mode", kTriangles);
+    if (!mode || *mode > kFan) return file_.error(place_, "its mode is unknown");
+    if (*mode < kTriangles) {
+      ++not_triangles_;
+      return Done{};
+    }
+    const Json* attributes = find_member(json, "attributes");
+    const Json* position = attributes == nullptr ? nullptr : find_member(*attributes, "POSITION");
+    if (position == nullptr) {
+      ++without_position_;
+      return Done{};
+    }
+    const Json* extensions = find_member(json, "extensions");
+    if (extensions != nullptr &&
+        find_member(*extensions, "KHR_draco_mesh_compression") != nullptr) {
+      ++draco_;
+    }
+    if (Status opened = open_vertices(*attributes, *position, primitive); !opened) return opened;
+    if (Status checked = check_targets(json, primitive.vertex_count); !checked) return checked;
+    if (Status read = read_faces(json, *mode, primitive); !read) return read;
+    contents_.primitives.push_back(primitive);
+    return Done{};
+  }
+
+  Result<GltfAccessor> open(const Json& index, std::string_view attribute) const {
+    const auto number = as_integer(index);
+    if (!number)
+      return file_.error(place_, fmt::format("{} is not the index of an accessor", attribute));
+    return open_accessor(file_, *number);
+  }
+
+  Status wrong_count(const GltfAccessor& accessor, std::string_view attribute,
+                     std::size_t wanted) const {
+    return file_.error(accessor_place(accessor.index),
+                       fmt::format("it has {} elements as {} of a primitive of {} vertices",
+                                   accessor.count, attribute, wanted));
+  }
+
+  Status open_vertices(const Json& attributes, const Json& position, GltfPrimitive& primitive) {
+    const Result<GltfAccessor> points = open(position, "POSITION");
+    if (!points) return points.error();
+    if (points->components != 3 || points->component == GltfComponent::u32) {
+      return file_.error(accessor_place(points->index),
+                         "it is a POSITION but not a VEC3 of numbers");
+    }
+    if (points->count >= kNone) return file_.error(place_, "it has too many vertices");
+    primitive.vertex_count = static_cast<std::uint32_t>(points->count);
+    std::optional<GltfAccessor> texcoords;
+    for (const auto& [name, index] : attributes.items()) {
+      const Result<GltfAccessor> accessor = open(index, name);
+      if (!accessor) return accessor.error();
+      if (accessor->count != points->count) return wrong_count(*accessor, name, points->count);
+      if (name == contents_.texcoord_name) texcoords = *accessor;
+    }
+    if (Status added = add_points(*points, mesh_.positions, position_base_); !added) return added;
+    primitive.first_position = position_base_[points->index];
+    first_texcoord_ = kNone;
+    if (!texcoords) return Done{};
+    if (texcoords->components != 2 || texcoords->component == GltfComponent::u32) {
+      return file_.error(
+          accessor_place(texcoords->index),
+          fmt::format("it is a {} but not a VEC2 of numbers", contents_.texcoord_name));
+    }
+    if (Status added = add_points(*texcoords, mesh_.texcoords, texcoord_base_); !added)
+      return added;
+    first_texcoord_ = texcoord_base_[texcoords->index];
+    primitive.has_texcoords = true;
+    return Done{};
+  }
+
+  /// Primitives often share accessors: each is read once.
+  template <typename Point>
+  Status add_points(const GltfAccessor& accessor, std::vector<Point>& points,
+                    std::vector<std::uint32_t>& base) const {
+    if (base[accessor.index] != kNone) return Done{};
+    if (points.size() + accessor.count > most_) return too_much();
+    base[accessor.index] = static_cast<std::uint32_t>(points.size());
+    return read_points(file_, accessor, points);
+  }
+
+  Status check_targets(const Json& json, std::size_t vertex_count) {
+    const Json& targets = array_member(json, "targets");
+    bool moves_texcoords = false;
+    for (const Json& target : targets) {
+      if (!target.is_object()) return file_.error(place_, "a morph target is not an object");
+      for (const auto& [name, index] : target.items()) {
+        const Result<GltfAccessor> accessor = open(index, name);
+        if (!accessor) return accessor.error();
+        if (accessor->count != vertex_count) return wrong_count(*accessor, name, vertex_count);
+        moves_texcoords = moves_texcoords || name == contents_.texcoord_name;
+      }
+    }
+    if (moves_texcoords) ++moving_texcoords_;
+    return Done{};
+  }
+
+  Status read_faces(const Json& json, std::uint64_t mode, GltfPrimitive& primitive) {
+    std::vector<std::uint32_t> indices;
+    std::size_t count = primitive.vertex_count;
+    if (const Json* index = find_member(json, "indices")) {
+      const Result<GltfAccessor> accessor = open(*index, "indices");
+      if (!accessor) return accessor.error();
+      Result<std::vector<std::uint32_t>> read =
+          read_indices(file_, *accessor, primitive.vertex_count);
+      if (!read) return read.error();
+      indices = *std::move(read);
+      count = indices.size();
+    }
+    const std::size_t triangles = mode == kTriangles ? count / 3 : count < 3 ? 0 : count - 2;
+    if (mesh_.corner_count() + 3 * triangles > most_) return too_much();
+    if (mode == kTriangles ? count % 3 != 0 : count < 3) ++ragged_;
+
+    const auto vertex = [&](std::size_t i) {
+      return indices.empty() ? static_cast<std::uint32_t>(i) : indices[i];
+    };
+    primitive.first_face = static_cast<std::uint32_t>(mesh_.face_count());
+    if (mesh_.corner_position.empty()) {
+      mesh_.corner_position.reserve(3 * triangles);
+      mesh_.corner_texcoord.reserve(3 * triangles);
+      mesh_.face_begin.reserve(triangles + 1);
+    }
+    for (std::size_t i = 0; i < triangles; ++i) {
+      if (mode == kTriangles) {
+        add_face(primitive, vertex(3 * i), vertex(3 * i + 1), vertex(3 * i + 2));
+        continue;
+      }
+      const std::uint32_t a = vertex(mode == kFan ? i + 1 : i);
+      const std::uint32_t b = vertex(mode == kFan ? i + 2 : i + 1 + i % 2);
+      const std::uint32_t c = vertex(mode == kFan ? 0 : i + 2 - i % 2);
+      // Strips jump by triangles without area.
+      if (a != b && b != c && c != a) add_face(primitive, a, b, c);
+    }
+    primitive.face_count = static_cast<std::uint32_t>(mesh_.face_count()) - primitive.first_face;
+    if (!primitive.has_texcoords) {
+      ++without_texcoords_;
+      faces_without_texcoords_ += primitive.face_count;
+    }
+    return Done{};
+  }
+
+  void add_face(const GltfPrimitive& primitive, std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+    for (const std::uint32_t vertex : {a, b, c}) {
+      mesh_.corner_position.push_back(primitive.first_position + vertex);
+      mesh_.corner_texcoord.push_back(primitive.has_texcoords ? first_texcoord_ + vertex : kNone);
+    }
+    mesh_.face_begin.push_back(static_cast<std::uint32_t>(mesh_.corner_position.size()));
+  }
+
+  Status too_much() const {
+    return file_.error(place_, "the primitives repeat the same data too often",
+                       "instance meshes by nodes instead");
+  }
+
+  GltfContents& contents_;
+  const GltfFile& file_;
+  Mesh& mesh_;
+  std::uint64_t most_;  ///< small files may not describe huge meshes
+  std::vector<std::uint32_t> position_base_, texcoord_base_;  ///< per accessor
+  std::uint32_t first_texcoord_ = kNone;
+  std::string place_;
+  std::size_t not_triangles_ = 0, without_position_ = 0, without_texcoords_ = 0;
+  std::size_t faces_without_texcoords_ = 0, ragged_ = 0, draco_ = 0, moving_texcoords_ = 0;
+};
+
+}  // namespace
+
+Status read_primitives(GltfContents& contents, Mesh& mesh, std::vector<std::string>& remarks) {
+  Reader reader(contents, mesh);
+  const Status read = reader.read_all();
+  if (read) reader.remark(remarks);
+  return read;
+}
+
+}  // namespace wrapatlas

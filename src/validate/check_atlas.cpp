@@ -1,0 +1,81 @@
+#include <fmt/format.h>
+
+#include "validate/checker.h"
+
+namespace wrapatlas {
+namespace validate {
+namespace {
+
+constexpr int kLargestAtlas = 1 << 20;
+
+Status check_options(const CheckOptions& o) {
+  const auto bad = [](std::string what, std::string remedy) {
+    return Error{ErrorKind::usage, "check", std::move(what), std::move(remedy)};
+  };
+  if (o.width < 1 || o.height < 1 || o.width > kLargestAtlas || o.height > kLargestAtlas) {
+    return bad(fmt::format("an atlas of {} x {} texels", o.width, o.height),
+               fmt::format("give sides of 1 to {} texels", kLargestAtlas));
+  }
+  const double side = std::min(o.width, o.height);
+  if (!(o.padding >= 0) || !(o.margin >= 0) || !(o.padding < side) || !(o.margin < side)) {
+    return bad(fmt::format("padding {} and margin {} for {} x {} texels", o.padding, o.margin,
+                           o.width, o.height),
+               "give numbers from 0 to less than the shorter side");
+  }
+  if (!(o.tolerance >= 0 && o.tolerance < 1e30)) {
+    return bad(fmt::format("a tolerance of {} texels", o.tolerance), "give a number from 0");
+  }
+  return Done{};
+}
+
+Error with_prefix(const char* whose, Error error) {
+  error.where = error.where.empty() ? whose : fmt::format("{}, {}", whose, error.where);
+  return error;
+}
+
+}  // namespace
+
+Result<CheckReport> Checker::run() {
+  report_.faces = atlas_.face_count();
+  for (std::size_t f = 0; f < atlas_.face_count(); ++f) {
+    if (!has_texcoords(atlas_, f)) ++report_.faces_without_uv;
+  }
+  FaceCharts own = connect_faces(atlas_);
+  if (reference_ == nullptr) {
+    face_chart_ = std::move(own.of_face);
+    report_.charts = own.count;
+    if (options_.stacked_ok) {
+      report_.remarks.emplace_back("which charts were stacked cannot be known without a reference");
+    }
+  } else if (Status status = compare(own); !status) {
+    return status.error();
+  }
+  rounding_ = rounding_of(atlas_, face_chart_, report_.charts, size_);
+  items_ = items_of(atlas_, face_chart_, size_);
+  check_sides();
+  if (reference_ != nullptr) {
+    fit(own.of_face);
+    if (Status status = reassemble(); !status) return status.error();
+  }
+  if (Status status = check_distances(); !status) return status.error();
+  if (Status status = remark_folds(); !status) return status.error();
+  return std::move(report_);
+}
+
+}  // namespace validate
+
+Result<CheckReport> check_atlas(const Mesh& atlas, const Mesh* reference,
+                                const CheckOptions& options) {
+  if (Status status = validate::check_options(options); !status) return status.error();
+  if (Status status = validate_mesh(atlas); !status) {
+    return validate::with_prefix("atlas", status.error());
+  }
+  if (reference != nullptr) {
+    if (Status status = validate_mesh(*reference); !status) {
+      return validate::with_prefix("reference", status.error());
+    }
+  }
+  return validate::Checker(atlas, reference, options).run();
+}
+
+}  // namespace wrapatlas

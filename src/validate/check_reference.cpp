@@ -1,0 +1,138 @@
+// The part of the judgement that compares an atlas with the mesh that it was made from.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <tuple>
+
+#include "validate/checker.h"
+
+namespace wrapatlas::validate {
+namespace {
+
+constexpr double kScaleTolerance = 1e-5;
+
+}  // namespace
+
+Status Checker::compare(const FaceCharts& own) {
+  auto match = match_faces(atlas_, *reference_, size_);
+  if (!match) return match.error();
+  match_ = std::move(*match);
+  original_ = connect_faces(*reference_);
+  const auto lost = [&](std::uint32_t f, std::uint32_t atlas_face, const char* how) {
+    findings_.add(
+        {Violation::missing_face, original_.of_face[f], kNone, atlas_face, f, 0,
+         fmt::format("face {} of the reference (chart {}) {}", f, original_.of_face[f], how)});
+  };
+  for (const std::uint32_t f : match_.missing) {
+    if (original_.of_face[f] != kNone) lost(f, kNone, "is not in the atlas");
+  }
+  // Faces that only the atlas has UVs for form charts of their own behind those of the reference.
+  face_chart_.assign(atlas_.face_count(), kNone);
+  std::vector<std::uint32_t> extra(own.count, kNone);
+  std::uint32_t charts = original_.count, last_lost = kNone;
+  for (std::uint32_t f = 0; f < atlas_.face_count(); ++f) {
+    const std::uint32_t source = match_.source[f], chart = original_.of_face[source];
+    if (own.of_face[f] == kNone) {
+      if (chart != kNone && source != last_lost) lost(source, f, "has no UVs in the atlas");
+      if (chart != kNone) last_lost = source;
+    } else if (chart != kNone) {
+      face_chart_[f] = chart;
+    } else {
+      std::uint32_t& number = extra[own.of_face[f]];
+      if (number == kNone) number = charts++;
+      face_chart_[f] = number;
+    }
+  }
+  report_.charts = charts;
+  return Done{};
+}
+
+void Checker::fit(const std::vector<std::uint32_t>& face_piece) {
+  std::array<bool, 2> may_shift = wraps_;
+  Box2 all;
+  for (const Item& item : items_) {
+    for (const Vec2 p : item.corners) all.add(p);
+  }
+  // An atlas within [0,1] may have been cut at sides that it is now said not to wrap around.
+  may_shift[0] = may_shift[0] || (all.min.x >= -kSlack && all.max.x <= size_.x + kSlack);
+  may_shift[1] = may_shift[1] || (all.min.y >= -kSlack && all.max.y <= size_.y + kSlack);
+  fits_ = fit_charts({atlas_, match_, face_chart_, face_piece, original_.count, size_, may_shift,
+                      rounding_, options_.tolerance});
+  report_.scale = fits_.scale;
+  for (std::uint32_t i = 0; i < fits_.charts.size(); ++i) {
+    const ChartFit& chart = fits_.charts[i];
+    if (chart.verdict == ChartFit::Verdict::mirrored) {
+      findings_.add({Violation::mirrored, i, kNone, chart.worst_face, kNone, chart.residual,
+                     fmt::format("chart {} is mirrored", i)});
+    } else if (chart.verdict == ChartFit::Verdict::distorted) {
+      findings_.add({Violation::not_similar, i, kNone, chart.worst_face, kNone, chart.residual,
+                     fmt::format("chart {} is not a turned and scaled copy of the reference: "
+                                 "face {} is {:.6g} texels off",
+                                 i, chart.worst_face, chart.residual)});
+    } else if (chart.scale > 0) {
+      const double ratio = chart.scale / fits_.scale;
+      if (std::abs(ratio - 1) > kScaleTolerance + 2 * (chart.scale_doubt + fits_.scale_doubt)) {
+        findings_.add({Violation::scale, i, kNone, chart.worst_face, kNone, ratio,
+                       fmt::format("chart {} has {:.8g} times the common scale", i, ratio)});
+      }
+    }
+  }
+}
+
+Status Checker::find_stacks_of_reference() {
+  const double unit = fits_.scale > 0 ? fits_.scale : 1;
+  const std::vector<double> rounding =
+      rounding_of(*reference_, original_.of_face, original_.count, {unit, unit});
+  const std::vector<Item> items = items_of(*reference_, original_.of_face, {unit, unit});
+  auto stacks = find_stacks(items, original_.count, {0, 0, rounding, options_.threads});
+  if (!stacks) return stacks.error();
+  std::copy(stacks->begin(), stacks->end(), stack_.begin());
+  return Done{};
+}
+
+/// Moves the pieces of cut charts together again, and the charts of a stack onto each other, by
+/// whole periods along the axes that wrap: that changes no distance on the torus.
+Status Checker::reassemble() {
+  stack_.resize(report_.charts);
+  for (std::uint32_t i = 0; i < report_.charts; ++i) stack_[i] = i;
+  if (options_.stacked_ok) {
+    if (Status status = find_stacks_of_reference(); !status) return status;
+  }
+  std::vector<std::array<double, 2>> to_stack(report_.charts);
+  for (std::size_t i = 0; i < original_.count; ++i) {
+    if (stack_[i] == i) continue;
+    const ChartFit &chart = fits_.charts[i], &first = fits_.charts[stack_[i]];
+    const Vec2 way = first.placed(chart.middle) - chart.placed_middle;
+    to_stack[i] = {std::round(way.x / size_.x), std::round(way.y / size_.y)};
+  }
+  struct Key {
+    std::uint32_t stack;
+    std::array<std::int32_t, 2> shift;
+    std::uint32_t item;
+    [[nodiscard]] auto value() const { return std::tie(stack, shift); }
+  };
+  std::vector<Key> keys;
+  keys.reserve(items_.size());
+  for (std::uint32_t i = 0; i < items_.size(); ++i) {
+    Item& item = items_[i];
+    item.stack = stack_[item.chart];
+    std::array<std::int32_t, 2> apart = fits_.face_shift[item.face];
+    Vec2 move;
+    if (wraps_[0]) move.x = (apart[0] + to_stack[item.chart][0]) * size_.x;
+    if (wraps_[1]) move.y = (apart[1] + to_stack[item.chart][1]) * size_.y;
+    for (Vec2& p : item.corners) p = p + move;
+    if (wraps_[0]) apart[0] = 0;
+    if (wraps_[1]) apart[1] = 0;
+    keys.push_back({stack_[item.chart], apart, i});
+  }
+  std::sort(keys.begin(), keys.end(),
+            [](const Key& a, const Key& b) { return a.value() < b.value(); });
+  std::uint32_t group = 0;
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    if (i > 0 && keys[i - 1].value() != keys[i].value()) ++group;
+    items_[keys[i].item].group = group;
+  }
+  return Done{};
+}
+
+}  // namespace wrapatlas::validate

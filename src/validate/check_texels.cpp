@@ -1,0 +1,126 @@
+// The part of the judgement that needs the atlas alone: sides, distances, folds.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "validate/checker.h"
+
+namespace wrapatlas::validate {
+namespace {
+
+double modulo(double x, double period) { return x - std::floor(x / period) * period; }
+
+}  // namespace
+
+void Checker::check_sides() {
+  double area = 0;
+  struct Worst {
+    double clearance = std::numeric_limits<double>::infinity();
+    std::uint32_t face = kNone;
+    Vec2 at;
+  };
+  std::vector<Worst> worst(report_.charts);
+  for (const Item& item : items_) {
+    area += std::abs(signed_area2(item.corners[0], item.corners[1], item.corners[2])) / 2;
+    Worst& of_chart = worst[item.chart];
+    for (const Vec2 p : item.corners) {
+      double clearance = std::numeric_limits<double>::infinity();
+      if (!wraps_[0]) clearance = std::min({clearance, p.x, size_.x - p.x});
+      if (!wraps_[1]) clearance = std::min({clearance, p.y, size_.y - p.y});
+      if (clearance < of_chart.clearance) of_chart = {clearance, item.face, p};
+    }
+  }
+  report_.efficiency = area / (size_.x * size_.y);
+  for (std::uint32_t i = 0; i < worst.size(); ++i) {
+    const auto& [clearance, face, at] = worst[i];
+    const double tolerance = kSlack + rounding_[i];
+    if (clearance < -tolerance) {
+      findings_.add(
+          {Violation::bounds, i, kNone, face, kNone, -clearance,
+           fmt::format("chart {} lies {:.6g} texels outside the atlas at ({:.3f}, {:.3f}) "
+                       "(face {})",
+                       i, -clearance, at.x, at.y, face)});
+    } else if (clearance < options_.margin - tolerance) {
+      findings_.add(
+          {Violation::margin, i, kNone, face, kNone, clearance,
+           fmt::format("chart {} comes within {:.6g} texels of a side at ({:.3f}, {:.3f}) "
+                       "(face {}); the margin is {:g}",
+                       i, clearance, at.x, at.y, face, options_.margin)});
+    }
+  }
+}
+
+Status Checker::check_distances() {
+  const double spacing = std::sqrt(size_.x * size_.y / static_cast<double>(items_.size() + 1));
+  const double reach = options_.padding + std::min(1.0, spacing);
+  const Vec2 period{wraps_[0] ? size_.x : 0, wraps_[1] ? size_.y : 0};
+  auto close =
+      find_close_pairs(items_, period, {options_.padding, reach, rounding_, options_.threads});
+  if (!close) return close.error();
+  report_.smallest_gap = close->smallest_gap;
+  for (const PairRecord& record : close->records) {
+    Finding finding{record.kind,
+                    record.chart_a,
+                    record.chart_b,
+                    items_[record.item_a].face,
+                    items_[record.item_b].face,
+                    record.amount,
+                    {}};
+    if (report_.findings.size() < options_.max_findings) finding.text = describe(record);
+    findings_.add(std::move(finding));
+  }
+  if (!close->complete) {
+    report_.remarks.emplace_back("there are more pairs of charts in conflict than were counted");
+  }
+  return Done{};
+}
+
+std::string Checker::describe(const PairRecord& record) const {
+  const Triangle& a = items_[record.item_a].corners;
+  Triangle b = items_[record.item_b].corners;
+  for (Vec2& p : b) p = p - Vec2{record.shift_x * size_.x, record.shift_y * size_.y};
+  Vec2 at;
+  if (record.kind == Violation::gap) {
+    const Closest closest = closest_points(a, b);
+    at = 0.5 * (closest.on_a + closest.on_b);
+  } else {
+    at = middle_of_overlap(a, b);
+  }
+  if (wraps_[0]) at.x = modulo(at.x, size_.x);
+  if (wraps_[1]) at.y = modulo(at.y, size_.y);
+  const std::string where = fmt::format("at ({:.3f}, {:.3f}) (faces {} and {})", at.x, at.y,
+                                        items_[record.item_a].face, items_[record.item_b].face);
+  const bool across = record.shift_x != 0 || record.shift_y != 0;
+  const std::string who =
+      record.chart_a != record.chart_b
+          ? fmt::format("charts {} and {}", record.chart_a, record.chart_b)
+          : fmt::format("chart {} and its own {}", record.chart_a, across ? "image" : "cut piece");
+  const char* border = across && record.chart_a != record.chart_b ? " across the border" : "";
+  if (record.kind == Violation::gap) {
+    return fmt::format("{} are {:.6g} texels apart{} {}; the padding is {:g}", who, record.amount,
+                       border, where, options_.padding);
+  }
+  return fmt::format("{} overlap by {:.6g} texels{} {}", who, record.amount, border, where);
+}
+
+Status Checker::remark_folds() {
+  auto folds = find_folds(items_, {0, 0, rounding_, options_.threads});
+  if (!folds) return folds.error();
+  std::size_t number = 0;
+  for (const PairRecord& fold : folds->records) {
+    findings_.remark(
+        number++,
+        fmt::format("chart {} overlaps itself by {:.6g} texels (faces {} and "
+                    "{}): a fold that the UVs came with",
+                    fold.chart_a, fold.amount, items_[fold.item_a].face, items_[fold.item_b].face));
+  }
+  findings_.remark_rest(number, "charts overlap themselves");
+  if (!folds->complete) {
+    report_.remarks.emplace_back(
+        "where thousands of triangles of a chart meet in one place, it was "
+        "not checked for folds");
+  }
+  return Done{};
+}
+
+}  // namespace wrapatlas::validate

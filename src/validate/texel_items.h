@@ -1,0 +1,23 @@
+// A mesh as the judge sees it: triangles in texels, and how exactly they are known.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "validate/divide.h"
+#include "wrapatlas/mesh.h"
+
+namespace wrapatlas::validate {
+
+/// Triangles of all faces that belong to a chart, UVs multiplied by `size`; stack and group are
+/// the chart's number.
+std::vector<Item> items_of(const Mesh& mesh, const std::vector<std::uint32_t>& face_chart,
+                           Vec2 size);
+
+/// Per chart: the distance in units of `size` by which storing may have moved a corner. Where all
+/// UVs of the mesh are floats that is half a float's last bit, else half a unit of the ninth
+/// decimal digit; UVs beyond 4 get no more than those at 4.
+std::vector<double> rounding_of(const Mesh& mesh, const std::vector<std::uint32_t>& face_chart,
+                                std::size_t charts, Vec2 size);
+
+}  // namespace wrapatlas::validate

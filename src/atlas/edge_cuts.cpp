@@ -31,23 +31,29 @@ void find_crossings(Vec2 a, Vec2 b, Wrap wrap, std::vector<Crossing>& crossings)
 EdgeCuts::EdgeCuts(const Mesh& mesh, const ChartSet& charts, const std::vector<Vec2>& corner_uv,
                    Wrap wrap)
     : mesh_(mesh), welded_(weld_positions(mesh.positions)) {
-  std::vector<EdgeUse> uses;  // `face` holds the corner at which the side begins
   std::vector<std::uint32_t> next(mesh.corner_count());
   std::vector<bool> has_uv(mesh.corner_count());
+  std::vector<bool> cut_begins(mesh.positions.size(), false);  // the lower end of a cut edge
   std::vector<Crossing> crossings;
+  bool any = false;
   for (std::uint32_t face = 0; face < mesh.face_count(); ++face) {
     for (std::uint32_t c = mesh.face_begin[face]; c < mesh.face_begin[face + 1]; ++c) {
       next[c] = next_corner(mesh, face, c);
       has_uv[c] = charts.face_chart[face] != kNone;
-      if (has_uv[c] && crossings.empty()) {
-        find_crossings(corner_uv[c], corner_uv[next_corner(mesh, face, c)], wrap, crossings);
-      }
-      const std::uint32_t a = welded_[mesh.corner_position[c]];
-      const std::uint32_t b = welded_[mesh.corner_position[next[c]]];
-      uses.push_back({std::min(a, b), std::max(a, b), c, a > b});
+      if (!has_uv[c]) continue;
+      find_crossings(corner_uv[c], corner_uv[next[c]], wrap, crossings);
+      if (crossings.empty()) continue;
+      crossings.clear();
+      any = true;
+      cut_begins[std::min(welded(c), welded(next[c]))] = true;
     }
   }
-  if (crossings.empty()) return;
+  if (!any) return;
+  std::vector<EdgeUse> uses;  // `face` holds the corner at which the side begins
+  for (std::uint32_t c = 0; c < mesh.corner_count(); ++c) {
+    const std::uint32_t a = welded(c), b = welded(next[c]);
+    if (cut_begins[std::min(a, b)]) uses.push_back({std::min(a, b), std::max(a, b), c, a > b});
+  }
   begin_.assign(mesh.corner_count(), 0);
   end_.assign(mesh.corner_count(), 0);
   gather_edges(uses, mesh.positions.size());
@@ -96,8 +102,7 @@ std::span<const EdgePoint> EdgeCuts::on_side(std::size_t corner) const {
 }
 
 bool EdgeCuts::canonical(std::uint32_t a, std::uint32_t b) const {
-  const std::uint32_t pa = welded_[mesh_.corner_position[a]];
-  const std::uint32_t pb = welded_[mesh_.corner_position[b]];
+  const std::uint32_t pa = welded(a), pb = welded(b);
   if (pa != pb) return pa < pb;
   if (mesh_.corner_texcoord[a] == kNone || mesh_.corner_texcoord[b] == kNone) return a < b;
   const Vec2 ua = mesh_.texcoords[mesh_.corner_texcoord[a]];

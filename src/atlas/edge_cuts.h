@@ -45,6 +45,9 @@ class EdgeCuts {
   [[nodiscard]] std::uint32_t position_count() const { return position_count_; }
 
  private:
+  [[nodiscard]] std::uint32_t welded(std::uint32_t corner) const {
+    return welded_[mesh_.corner_position[corner]];
+  }
   void cut_edge(std::span<const std::uint32_t> sides, const std::vector<double>& ts);
 
   const Mesh& mesh_;

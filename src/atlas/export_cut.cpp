@@ -88,13 +88,14 @@ class CutExporter {
 
   void whole_face() {
     splitter_.clear();
-    TriangleSplitter::Ring ring;
+    ring_.clear();
     const std::uint32_t begin = mesh_.face_begin[face_], size = mesh_.face_size(face_);
     for (std::uint32_t i = 0; i < size; ++i) {
-      add_corner(begin + i, 0, ring);
-      add_side(begin + i, begin + (i + 1) % size, 0, 1, ring);
+      add_corner(begin + i, 0);
+      if (edge_cuts_.on_side(begin + i).empty()) continue;
+      add_side(begin + i, begin + (i + 1) % size, 0, 1);
     }
-    emit(ring);
+    emit(ring_);
   }
 
   void split_face() {
@@ -109,26 +110,26 @@ class CutExporter {
     for (const auto& offsets : triangles_) {
       for (std::size_t i = 0; i < 3; ++i) triangle_[i] = begin + offsets[i];
       splitter_.clear();
-      TriangleSplitter::Ring ring;
+      ring_.clear();
       for (std::size_t i = 0; i < 3; ++i) {
-        add_corner(triangle_[i], i, ring);
-        add_side(triangle_[i], triangle_[(i + 1) % 3], i, (i + 1) % 3, ring);
+        add_corner(triangle_[i], i);
+        add_side(triangle_[i], triangle_[(i + 1) % 3], i, (i + 1) % 3);
       }
-      for (const auto& piece : splitter_.split(ring, wrap_)) emit(piece);
+      for (const auto& piece : splitter_.split(ring_, wrap_)) emit(piece);
     }
   }
 
-  void add_corner(std::uint32_t corner, std::size_t index, TriangleSplitter::Ring& ring) {
+  void add_corner(std::uint32_t corner, std::size_t index) {
     CutNode node;
     node.uv = corner_uv_[corner];
     node.corner = corner;
-    node.weights[index % 3] = 1;
-    ring.push_back(static_cast<std::uint32_t>(splitter_.nodes.size()));
+    node.weights[index] = 1;
+    ring_.push_back(static_cast<std::uint32_t>(splitter_.nodes.size()));
     splitter_.nodes.push_back(node);
   }
 
-  void add_side(std::uint32_t from, std::uint32_t to, std::size_t from_index, std::size_t to_index,
-                TriangleSplitter::Ring& ring) {
+  void add_side(std::uint32_t from, std::uint32_t to, std::size_t from_index,
+                std::size_t to_index) {
     const bool forward = edge_cuts_.canonical(from, to);
     if (!forward) {
       std::swap(from, to);
@@ -149,7 +150,7 @@ class CutExporter {
     set_exact_coordinates(a, b, points, first_node);
     for (std::size_t i = 0; i < points.size(); ++i) {
       const std::size_t along = forward ? i : points.size() - 1 - i;
-      ring.push_back(static_cast<std::uint32_t>(first_node + along));
+      ring_.push_back(static_cast<std::uint32_t>(first_node + along));
     }
   }
 
@@ -253,6 +254,7 @@ class CutExporter {
   std::vector<std::array<std::uint32_t, 3>> triangles_;
   std::vector<Diagonal> diagonals_;
   TriangleSplitter splitter_;
+  TriangleSplitter::Ring ring_;
   std::vector<Crossing> crossings_;
 };
 

@@ -9,7 +9,7 @@ void TriangleSplitter::clear() {
   crossings_.clear();
 }
 
-std::vector<TriangleSplitter::Ring> TriangleSplitter::split(Ring ring, Wrap wrap) {
+std::vector<TriangleSplitter::Ring> TriangleSplitter::split(const Ring& ring, Wrap wrap) {
   std::vector<Ring> pieces;
   for (Ring& strip : wraps_u(wrap) ? split_along(ring, 0) : std::vector<Ring>{ring}) {
     if (!wraps_v(wrap)) {

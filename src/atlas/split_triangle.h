@@ -28,7 +28,7 @@ class TriangleSplitter {
 
   std::vector<CutNode> nodes;
 
-  std::vector<Ring> split(Ring ring, Wrap wrap);
+  std::vector<Ring> split(const Ring& ring, Wrap wrap);
   void clear();
 
  private:

@@ -15,7 +15,7 @@ struct EdgeUse {
   bool reversed = false;  ///< the face walks it from high to low
 };
 
-/// Orders edge uses by (low, high), and uses of one edge as they came. O(n log d) for vertices of
+/// Orders edge uses by (low, high), and uses of one edge by face. O(n log d) for vertices of
 /// degree d.
 inline void gather_edges(std::vector<EdgeUse>& uses, std::size_t vertex_count) {
   std::vector<std::uint32_t> begin(vertex_count + 1, 0);
@@ -25,8 +25,11 @@ inline void gather_edges(std::vector<EdgeUse>& uses, std::size_t vertex_count) {
   std::vector<std::uint32_t> next(begin.begin(), begin.end() - 1);
   for (const EdgeUse& use : uses) sorted[next[use.low]++] = use;
   for (std::size_t v = 0; v < vertex_count; ++v) {
-    std::stable_sort(sorted.begin() + begin[v], sorted.begin() + begin[v + 1],
-                     [](const EdgeUse& a, const EdgeUse& b) { return a.high < b.high; });
+    std::sort(sorted.begin() + begin[v], sorted.begin() + begin[v + 1],
+              [](const EdgeUse& a, const EdgeUse& b) {
+                if (a.high != b.high) return a.high < b.high;
+                return a.face != b.face ? a.face < b.face : a.reversed < b.reversed;
+              });
   }
   uses.swap(sorted);
 }

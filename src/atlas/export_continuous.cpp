@@ -1,0 +1,41 @@
+#include <numeric>
+
+#include "atlas/chart_uvs.h"
+#include "wrapatlas/atlas.h"
+
+namespace wrapatlas {
+
+AtlasMesh export_continuous(const Mesh& mesh, const ChartSet& charts, const Packing& packing) {
+  AtlasMesh atlas;
+  std::vector<std::uint32_t> first_texcoord;
+  bool leaves_u = false, leaves_v = false;
+  for (std::size_t chart = 0; chart < charts.charts.size(); ++chart) {
+    first_texcoord.push_back(static_cast<std::uint32_t>(atlas.texcoords.size()));
+    for (const Vec2 uv : atlas_uvs(charts.charts[chart], packing, chart)) {
+      leaves_u = leaves_u || uv.x > 1;
+      leaves_v = leaves_v || uv.y > 1;
+      atlas.texcoords.push_back(uv);
+    }
+  }
+  leaves_u = leaves_u && wraps_u(packing.wrap);
+  leaves_v = leaves_v && wraps_v(packing.wrap);
+  atlas.wrap = leaves_u ? (leaves_v ? Wrap::uv : Wrap::u) : (leaves_v ? Wrap::v : Wrap::none);
+
+  atlas.face_begin = mesh.face_begin;
+  atlas.face_source.resize(mesh.face_count());
+  std::iota(atlas.face_source.begin(), atlas.face_source.end(), 0U);
+  atlas.corner_source.resize(mesh.corner_count());
+  std::iota(atlas.corner_source.begin(), atlas.corner_source.end(), 0U);
+  atlas.corner_cut.assign(mesh.corner_count(), kNone);
+  atlas.corner_texcoord.assign(mesh.corner_count(), kNone);
+  for (std::size_t face = 0; face < mesh.face_count(); ++face) {
+    const std::uint32_t chart = charts.face_chart[face];
+    if (chart == kNone) continue;
+    for (std::uint32_t c = mesh.face_begin[face]; c < mesh.face_begin[face + 1]; ++c) {
+      atlas.corner_texcoord[c] = first_texcoord[chart] + charts.corner_point[c];
+    }
+  }
+  return atlas;
+}
+
+}  // namespace wrapatlas

@@ -5,7 +5,7 @@ import math
 from makers.vectors import distance, signed_area2
 
 
-def as_rigid_as_possible(rest, triangles, start, rounds=10):
+def as_rigid_as_possible(rest, triangles, start, rounds=8):
     """Flattens triangles with 3D corners `rest`, from the planar `start`, as isometrically as can
     be: Liu et al. 2008, "A Local/Global Approach to Mesh Parameterization" (ARAP)."""
     corners, matrix = [], [{} for _ in start]
@@ -48,7 +48,7 @@ def as_rigid_as_possible(rest, triangles, start, rounds=10):
                 right[0][i] -= tx
                 right[1][j] += ty
                 right[1][i] -= ty
-        axes = [conjugate_gradients(rows, diagonal, b, x, 40) for b, x in zip(right, axes)]
+        axes = [conjugate_gradients(rows, diagonal, b, x, 25) for b, x in zip(right, axes)]
     return list(zip(*axes))
 
 

@@ -83,7 +83,8 @@ def make_machine():
     m.plate("knob", "brass", [toothed(7, 0.9, 2.2, (0.0, 0.46, 0.54, 0.98)), circle(0.4, 16)],
             0.8, (-6, -1, 0))
     m.plate("tie_bar", "steel", [slot((0, 0), (13.0, 0), 0.22, 8), circle(0.12, 12),
-                                 circle(0.12, 12, (13.0, 0.0))], 0.15, (-3, -11.5, 0), turn=0.8, strips=2)
+                                 circle(0.12, 12, (13.0, 0.0))], 0.15, (-3, -11.5, 0), turn=0.8,
+            strips=2)
     for k, (outer, inner) in enumerate(((0.9, 0.45), (0.7, 0.5), (0.45, 0.2), (0.35, 0.25))):
         m.plate(f"washer_{k + 1}", "brass", [circle(outer, 24), circle(inner, 20)], 0.08,
                 (-6 + 2.0 * k, -5, 0))

@@ -1,4 +1,7 @@
-"""Triangles of polygons with holes."""
+"""Triangles of polygons with holes.
+
+Choices compare rounded lengths: symmetric shapes have ties, which the last bit must not decide.
+"""
 
 from makers.vectors import distance, signed_area2
 
@@ -11,13 +14,14 @@ def segments_cross(a, b, c, d):
 def bridge_holes(points, outline, holes):
     """One loop of indices around the outline and, over bridges, around all holes."""
     loop = list(outline)
-    waiting = sorted(holes, key=lambda hole: -max(points[k][0] for k in hole))
+    waiting = sorted(holes, key=lambda hole: round(-max(points[k][0] for k in hole), 6))
     while waiting:
         hole = waiting.pop(0)
         start = max(range(len(hole)), key=lambda i: points[hole[i]])
         h = hole[start]
         walls = [ring + ring[:1] for ring in [loop, hole] + waiting]
-        for at in sorted(range(len(loop)), key=lambda i: distance(points[loop[i]], points[h])):
+        away = [round(distance(points[k], points[h]), 6) for k in loop]
+        for at in sorted(range(len(loop)), key=away.__getitem__):
             o = loop[at]
             blocked = any(
                 segments_cross(points[h], points[o], points[a], points[b])
@@ -44,10 +48,10 @@ def triangulate(points, loop):
             p = points[k]
             if p in (pa, pb, pc):
                 continue
-            if (signed_area2(pa, pb, p) >= 0 and signed_area2(pb, pc, p) >= 0
-                    and signed_area2(pc, pa, p) >= 0):
+            sides = signed_area2(pa, pb, p), signed_area2(pb, pc, p), signed_area2(pc, pa, p)
+            if min(sides) > -1e-9:
                 return None
-        return distance(pa, pc)
+        return round(distance(pa, pc), 6)
 
     triangles, ears = [], [ear(i) for i in range(len(ring))]
     while len(ring) > 3:

@@ -61,9 +61,9 @@ def mesh_region(field, low, high, step):
                     if values[p] * values[q] < 0:
                         polygon.append(cut(p, q))
                 if len(polygon) == 4:
-                    if distance(points[polygon[1]], points[polygon[3]]) < distance(
-                        points[polygon[0]], points[polygon[2]]
-                    ):
+                    one, other = (distance(points[polygon[k]], points[polygon[k + 2]])
+                                  for k in (0, 1))
+                    if round(other, 6) < round(one, 6):
                         polygon = polygon[1:] + polygon[:1]
                     triangles.append((polygon[0], polygon[2], polygon[3]))
                 triangles.append(tuple(polygon[:3]))

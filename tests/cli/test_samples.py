@@ -141,7 +141,8 @@ def crossings(edges):
                 c, d = edges[second]
                 if {a, b} & {c, d}:
                     continue
-                if turn(a, b, c) * turn(a, b, d) < -1e-20 and turn(c, d, a) * turn(c, d, b) < -1e-20:
+                sides = turn(a, b, c) * turn(a, b, d), turn(c, d, a) * turn(c, d, b)
+                if max(sides) < -1e-20:
                     pairs.add((first, second))
     return len(pairs)
 

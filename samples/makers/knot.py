@@ -28,5 +28,5 @@ def make_knot(along=240, around=14):
                 for p, q, r in zip(centre(t), outward, side)))
             after = (i + 1) % along
             faces.append((i * around + j, i * around + (j + 1) % around,
-                          after * around + (j + 1) % around, after * around + j)[::-1])
+                          after * around + (j + 1) % around, after * around + j))
     return positions, faces

@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kMinSize = 16, kMaxSize = 8192;
 constexpr double kFarthest = 1e6;  // pixels; beyond it a place is no place
-constexpr int kMaxTiles = 32;      // along an axis, for a chart that winds around
+constexpr int kMaxTiles = 16;      // along an axis, for a chart that winds around
 
 int drawn_size(const PictureOptions& options) {
   return std::clamp(options.size, kMinSize, kMaxSize);

@@ -115,6 +115,17 @@ def area_2d(points):
     return sum(p[0] * q[1] - p[1] * q[0] for p, q in zip(points, points[1:] + points[:1])) / 2
 
 
+def volume(model):
+    """Enclosed volume, positive if faces are counter-clockwise from outside."""
+    total = 0.0
+    for face in model.faces:
+        a, *rest = [model.positions[p] for p, _ in face]
+        for b, c in zip(rest, rest[1:]):
+            total += (a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2])
+                      + a[2] * (b[0] * c[1] - b[1] * c[0])) / 6
+    return total
+
+
 def turn(a, b, c):
     return (b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1])
 
@@ -172,6 +183,7 @@ class SampleShapes(unittest.TestCase):
                 edges[a[0], b[0]] += 1
         for (a, b), count in edges.items():
             self.assertEqual((count, edges[b, a]), (1, 1))
+        self.assertGreater(volume(model), 0)
 
     def check_charts(self, model, tolerance):
         """Returns chart areas in space; checks flips, overlap, and one density for all charts."""

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "render/digits.h"
 
@@ -10,7 +11,7 @@ namespace {
 
 constexpr int kMinSize = 16, kMaxSize = 8192;
 constexpr double kFarthest = 1e6;  // pixels; beyond it a place is no place
-constexpr int kMaxTiles = 32;      // along an axis, for a chart that winds around
+constexpr int kMaxTiles = 16;      // along an axis, for a chart that winds around
 
 int drawn_size(const PictureOptions& options) {
   return std::clamp(options.size, kMinSize, kMaxSize);
@@ -128,10 +129,14 @@ void cover_chart(const PlacedChart& chart, CoverageMask& mask) {
 }
 
 double outline_width(const PlacedChart& chart, const PictureOptions& options) {
-  double area = 0;
-  for (const Segment& edge : chart.outline) area += edge.winding * cross(edge.from, edge.to) / 2;
-  return std::clamp(0.06 * std::sqrt(std::abs(area)), 0.4,
-                    std::max(1.0, drawn_size(options) / 700.0));
+  double area = 0, perimeter = 0;
+  for (const Segment& edge : chart.outline) {
+    area += edge.winding * cross(edge.from, edge.to) / 2;
+    perimeter += length(edge.to - edge.from);
+  }
+  if (perimeter == 0) return 0.25;
+  const double thickness = 2 * std::abs(area) / perimeter;  // a strip's, for a strip
+  return std::clamp(0.13 * thickness, 0.25, std::max(1.0, drawn_size(options) / 700.0));
 }
 
 Spot widest_spot(const CoverageMask& mask) {

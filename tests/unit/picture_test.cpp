@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 #include <spng.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <memory>
@@ -173,6 +175,47 @@ TEST(Picture, FourTilesOnlyAlongAxesThatWrap) {
   const Image image = draw_atlas(charts, packing_at(64, 64, Wrap::v, {{10, 10}}), options);
   EXPECT_EQ(image.width, 64);
   EXPECT_EQ(image.height, 128);
+}
+
+/// Distance of p from the nearest side of a counter-clockwise triangle, positive inside.
+double depth_in(const std::array<Vec2, 3>& triangle, Vec2 p) {
+  double depth = 1e9;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vec2 a = triangle[i], b = triangle[(i + 1) % 3];
+    depth = std::min(depth, signed_area2(a, b, p) / length(b - a));
+  }
+  return depth;
+}
+
+TEST(Picture, LongChartsWindAroundAsTheDefinitionSays) {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> angle(0, 2 * std::numbers::pi), place(-300, 300);
+  for (const Wrap wrap : {Wrap::none, Wrap::u, Wrap::v, Wrap::uv}) {
+    for (int round = 0; round < 6; ++round) {
+      const std::vector<Chart> charts{outline_chart({{{0, 0}, {210, 0}, {190, 14}}})};
+      Packing packing = packing_at(80, 64, wrap, {{place(random), place(random)}});
+      packing.placements[0].angle = angle(random);
+      const Image image = draw_atlas(charts, packing, plain(80));
+      std::array<Vec2, 3> triangle;
+      for (std::size_t i = 0; i < 3; ++i) {
+        triangle[i] = packing.transform(0).apply(charts[0].points[i]);
+      }
+      const int columns = wraps_u(wrap) ? 12 : 0, rows = wraps_v(wrap) ? 12 : 0;
+      for (int y = 1; y < 63; ++y) {
+        for (int x = 1; x < 79; ++x) {
+          double depth = -1e9;
+          for (int i = -columns; i <= columns; ++i) {
+            for (int j = -rows; j <= rows; ++j) {
+              depth = std::max(depth,
+                               depth_in(triangle, {x + 0.5 + 80.0 * i, 64 - y - 0.5 + 64.0 * j}));
+            }
+          }
+          if (std::abs(depth) < 1) continue;
+          ASSERT_EQ(at(image, x, y) != kGround, depth > 0) << x << " " << y;
+        }
+      }
+    }
+  }
 }
 
 TEST(Picture, HolesStayOpenAndDoubleCoverStaysCovered) {

@@ -1,1 +1,51 @@
-int main() { return 0; }
+// The wrapatlas command: one sub-command per file.
+
+#include <fmt/format.h>
+
+#include <exception>
+#include <new>
+
+#include "common.h"
+
+namespace {
+
+int run(int argc, char** argv) {
+  using namespace wrapatlas::cli;
+  CLI::App parser{
+      "wrapatlas packs texture atlases on the torus: charts may wrap around the atlas border.\n"
+      "Exit status: 0 done; 1 a check failed; 2 usage; 3 unusable input or output;\n"
+      "4 no packing found; 130 interrupted."};
+  parser.name("wrapatlas");
+  parser.set_version_flag("--version", "wrapatlas " WRAPATLAS_VERSION);
+  parser.set_help_all_flag("--help-all", "Help on every sub-command");
+  parser.require_subcommand(1);
+  parser.get_formatter()->column_width(34);
+
+  const Command commands[] = {make_pack_command(parser), make_check_command(parser),
+                              make_info_command(parser)};
+  try {
+    parser.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return parser.exit(error);
+    return report_error({wrapatlas::ErrorKind::usage, "", error.what(),
+                         "see wrapatlas --help, or wrapatlas COMMAND --help"});
+  }
+  for (const Command& command : commands) {
+    if (command.app->parsed()) return command.run();
+  }
+  return 2;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const std::bad_alloc&) {
+    return wrapatlas::cli::report_error({wrapatlas::ErrorKind::input, "", "out of memory",
+                                         "use a smaller model or a machine with more memory"});
+  } catch (const std::exception& error) {
+    return wrapatlas::cli::report_error(
+        {wrapatlas::ErrorKind::input, "", error.what(), "please report this as a bug"});
+  }
+}

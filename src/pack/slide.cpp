@@ -59,7 +59,7 @@ void slide_tiles_scalar(const std::int16_t* low, const std::int16_t* high, const
   slide_tiles(low, high, chart, shifts, lowest, highest);
 }
 
-[[gnu::target("avx512f,avx512bw,avx512vl,prefer-vector-width=512")]] void slide_tiles_avx512(
+[[gnu::target("avx512f,avx512bw,avx512vl")]] void slide_tiles_avx512(
     const std::int16_t* low, const std::int16_t* high, const Silhouette& chart, int shifts,
     std::int16_t* lowest, std::int16_t* highest) {
   slide_tiles(low, high, chart, shifts, lowest, highest);

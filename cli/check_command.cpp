@@ -1,0 +1,149 @@
+// wrapatlas check: the independent exact judge of a finished atlas.
+
+#include <fmt/format.h>
+
+#include <array>
+#include <optional>
+
+#include "common.h"
+#include "wrapatlas/model.h"
+#include "wrapatlas/validate.h"
+
+namespace wrapatlas::cli {
+namespace {
+
+struct CheckArguments {
+  std::string input, reference, resolution = "1024", wrap = "none", stacked = "separate", json;
+  CheckOptions options;
+  int texcoord = 0;
+  bool quiet = false;
+};
+
+constexpr std::array<const char*, 9> kViolationNames{"overlap",     "gap",      "self_overlap",
+                                                     "bounds",      "margin",   "missing_face",
+                                                     "not_similar", "mirrored", "scale"};
+
+Json to_json(const CheckArguments& arguments, const CheckReport& report, double seconds) {
+  Json findings = Json::array();
+  for (const Finding& finding : report.findings) {
+    findings.push_back({{"kind", kViolationNames[static_cast<std::size_t>(finding.kind)]},
+                        {"amount", finding.amount},
+                        {"text", finding.text}});
+  }
+  return {{"version", WRAPATLAS_VERSION},
+          {"command", "check"},
+          {"input", arguments.input},
+          {"reference", arguments.reference},
+          {"wrap", arguments.wrap},
+          {"width", arguments.options.width},
+          {"height", arguments.options.height},
+          {"padding", arguments.options.padding},
+          {"margin", arguments.options.margin},
+          {"ok", report.ok()},
+          {"violations", report.violations},
+          {"charts", report.charts},
+          {"faces", report.faces},
+          {"faces_without_uv", report.faces_without_uv},
+          {"smallest_gap", report.smallest_gap},
+          {"efficiency", report.efficiency},
+          {"scale", report.scale},
+          {"findings", findings},
+          {"remarks", report.remarks},
+          {"seconds", {{"total", seconds}}},
+          {"peak_memory_mb", peak_memory_mb()}};
+}
+
+int run(CheckArguments& arguments) {
+  const double start = seconds_now();
+  const auto size = parse_resolution(arguments.resolution);
+  if (!size) return report_error(size.error());
+  CheckOptions& options = arguments.options;
+  options.width = size->width;
+  options.height = size->height;
+  options.wrap = parse_wrap(arguments.wrap);
+  options.stacked_ok = arguments.stacked == "keep";
+  LoadOptions load_options;
+  load_options.texcoord_set = arguments.texcoord;
+  const auto atlas = load_model(arguments.input, load_options);
+  if (!atlas) return report_error(atlas.error());
+  std::optional<Model> reference;
+  if (!arguments.reference.empty()) {
+    auto loaded = load_model(arguments.reference, load_options);
+    if (!loaded) return report_error(loaded.error());
+    reference = std::move(*loaded);
+  }
+  const auto report = check_atlas(atlas->mesh, reference ? &reference->mesh : nullptr, options);
+  if (!report) {
+    Error error = report.error();
+    error.where = arguments.input + (error.where.empty() ? "" : ": " + error.where);
+    return report_error(error);
+  }
+  if (!arguments.json.empty()) {
+    const Status ok =
+        write_json(arguments.json, to_json(arguments, *report, seconds_now() - start));
+    if (!ok) return report_error(ok.error());
+  }
+  if (!arguments.quiet) {
+    for (const std::string& remark : report->remarks) {
+      fmt::print(stderr, "{}: note: {}\n", arguments.input, remark);
+    }
+    for (const Finding& finding : report->findings) {
+      fmt::print(stderr, "{}: {}\n", arguments.input, finding.text);
+    }
+    if (report->violations > report->findings.size()) {
+      fmt::print(stderr, "{}: and {} more\n", arguments.input,
+                 report->violations - report->findings.size());
+    }
+    fmt::print(stderr, "{}: {}: {} charts, {:.1f} % in use\n", arguments.input,
+               report->ok() ? "ok" : fmt::format("{} violations", report->violations),
+               report->charts, 100 * report->efficiency);
+  }
+  return report->ok() ? 0 : 1;
+}
+
+}  // namespace
+
+Command make_check_command(CLI::App& parser) {
+  auto arguments = std::make_shared<CheckArguments>();
+  CheckArguments& a = *arguments;
+  CLI::App& app = *parser.add_subcommand(
+      "check", "Check a finished atlas exactly: overlap, padding, bounds, and against its source");
+  app.add_option("input", a.input, "The packed model")->required();
+  app.add_option("--ref", a.reference,
+                 "The model it was packed from: every face must be there, every chart be a copy "
+                 "at one common scale, none mirrored");
+  app.add_option("--resolution", a.resolution, "Texels of the atlas: N or WxH")
+      ->capture_default_str();
+  add_wrap_option(app, a.wrap, "Axes on which the atlas wraps: uv, u, v, none");
+  app.get_option("--wrap")->capture_default_str();
+  app.add_option("--padding", a.options.padding, "Texels that must lie between charts")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  app.add_option("--margin", a.options.margin, "Texels to a side that does not wrap")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  app.add_option("--tolerance", a.options.tolerance,
+                 "Texels by which a chart may differ from a similarity copy of its source")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  app.add_option("--stacked", a.stacked, "keep: charts that overlap in the source may overlap here")
+      ->check(CLI::IsMember({"separate", "keep"}))
+      ->capture_default_str();
+  app.add_option("--texcoord", a.texcoord, "UV set of a glTF: K of TEXCOORD_K")
+      ->check(CLI::Range(0, 15))
+      ->capture_default_str();
+  app.add_option("--findings", a.options.max_findings, "How many violations to describe")
+      ->capture_default_str();
+  app.add_option("--threads", a.options.threads, "Threads; 0: all of the machine's")
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str();
+  app.add_option("--json", a.json, "Write a report as JSON to a file, or - for standard output");
+  app.add_flag("--quiet", a.quiet, "Only the exit status");
+  app.footer(
+      "Exit status 0: every promise holds; 1: some do not.\n"
+      "Example:\n"
+      "  wrapatlas check packed.obj --ref model.obj --resolution 1024 --wrap uv --padding 2");
+  return {&app, [arguments] { return run(*arguments); }};
+}
+
+}  // namespace wrapatlas::cli

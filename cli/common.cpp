@@ -1,0 +1,134 @@
+#include "common.h"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <array>
+#include <charconv>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+
+#include "io/file.h"
+
+namespace wrapatlas::cli {
+namespace {
+
+volatile std::sig_atomic_t interrupt_flag = 0;
+
+void on_interrupt(int) { interrupt_flag = 1; }
+
+constexpr std::array<const char*, 4> kWrapNames{"none", "u", "v", "uv"};
+constexpr std::array<const char*, 4> kMethodNames{"lprm02", "swg03", "zsgs04", "modulo"};
+
+}  // namespace
+
+int exit_status(ErrorKind kind) {
+  switch (kind) {
+    case ErrorKind::check:
+      return 1;
+    case ErrorKind::usage:
+      return 2;
+    case ErrorKind::input:
+    case ErrorKind::output:
+      return 3;
+    case ErrorKind::no_packing:
+      return 4;
+    case ErrorKind::interrupted:
+      return 130;
+  }
+  return 3;
+}
+
+int report_error(const Error& error) {
+  std::string line = error.message();
+  for (char& c : line) {
+    if (c == '\n' || c == '\r') c = ' ';
+  }
+  fmt::print(stderr, "wrapatlas: {}\n", line);
+  return exit_status(error.kind);
+}
+
+Result<Resolution> parse_resolution(const std::string& text) {
+  const Error bad{ErrorKind::usage, "--resolution " + text, "not a size in texels",
+                  "give N or WxH, 1 to 65536 each, e.g. 1024 or 2048x1024"};
+  Resolution size;
+  const char* const end = text.data() + text.size();
+  const auto first = std::from_chars(text.data(), end, size.width);
+  if (first.ec != std::errc{}) return bad;
+  size.height = size.width;
+  if (first.ptr != end) {
+    if (*first.ptr != 'x') return bad;
+    const auto second = std::from_chars(first.ptr + 1, end, size.height);
+    if (second.ec != std::errc{} || second.ptr != end) return bad;
+    size.two_sided = true;
+  }
+  if (size.width < 1 || size.height < 1 || size.width > 65536 || size.height > 65536) return bad;
+  return size;
+}
+
+void add_wrap_option(CLI::App& app, std::string& value, const std::string& help) {
+  app.add_option("--wrap", value, help)->check(CLI::IsMember({"uv", "u", "v", "none"}));
+}
+
+Wrap parse_wrap(const std::string& name) {
+  for (std::size_t i = 0; i < kWrapNames.size(); ++i) {
+    if (name == kWrapNames[i]) return static_cast<Wrap>(i);
+  }
+  return Wrap::none;
+}
+
+const char* wrap_name(Wrap wrap) { return kWrapNames[static_cast<std::size_t>(wrap)]; }
+
+const char* method_name(Method method) { return kMethodNames[static_cast<std::size_t>(method)]; }
+
+Status write_json(const std::string& path, const Json& object) {
+  const std::string text =
+      object.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+  if (path != "-") return write_file(path, text);
+  if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0) {
+    return Error{ErrorKind::output, "standard output", "cannot write", "check where it goes"};
+  }
+  return Done{};
+}
+
+double seconds_now() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+double peak_memory_mb() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024;
+}
+
+void catch_interrupts() {
+  struct sigaction action {};
+  action.sa_handler = on_interrupt;
+  action.sa_flags = static_cast<int>(SA_RESETHAND);  // a second Ctrl-C ends the program at once
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+}
+
+bool interrupted() { return interrupt_flag != 0; }
+
+ProgressLine::ProgressLine(bool wanted) : active_(wanted && ::isatty(STDERR_FILENO) != 0) {}
+
+ProgressLine::~ProgressLine() {
+  if (shown_) fmt::print(stderr, "\r\033[K");
+}
+
+void ProgressLine::show(const Progress& progress) {
+  if (!active_) return;
+  shown_ = true;
+  fmt::print(stderr, "\rpacking {:3.0f} %", 100 * progress.fraction);
+  if (progress.best_efficiency > 0) {
+    fmt::print(stderr, ", best so far {:.1f} % of the atlas in use",
+               100 * progress.best_efficiency);
+  }
+  fmt::print(stderr, " (Ctrl-C keeps the best)");
+  std::fflush(stderr);
+}
+
+}  // namespace wrapatlas::cli

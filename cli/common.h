@@ -1,0 +1,67 @@
+// What the sub-commands share: exit statuses, options, JSON, progress, interruption.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "wrapatlas/pack.h"
+#include "wrapatlas/result.h"
+
+namespace wrapatlas::cli {
+
+using Json = nlohmann::ordered_json;
+
+/// 0 done, 1 a check failed, 2 usage, 3 unusable input or output, 4 no packing, 130 interrupted.
+int exit_status(ErrorKind kind);
+
+/// Prints the one line on stderr and returns the exit status.
+int report_error(const Error& error);
+
+/// Texels, from "N" or "WxH".
+struct Resolution {
+  int width = 1024, height = 1024;
+  bool two_sided = false;  ///< given as WxH
+};
+Result<Resolution> parse_resolution(const std::string& text);
+
+/// A sub-command registered with the parser; run it if it was chosen.
+struct Command {
+  CLI::App* app;
+  std::function<int()> run;
+};
+Command make_pack_command(CLI::App& parser);
+Command make_check_command(CLI::App& parser);
+Command make_info_command(CLI::App& parser);
+
+void add_wrap_option(CLI::App& app, std::string& value, const std::string& help);
+Wrap parse_wrap(const std::string& name);
+const char* wrap_name(Wrap wrap);
+const char* method_name(Method method);
+
+/// Writes the object to a file, or to standard output for "-".
+Status write_json(const std::string& path, const Json& object);
+
+double seconds_now();
+double peak_memory_mb();
+
+/// Ctrl-C sets a flag from here on, instead of ending the program.
+void catch_interrupts();
+bool interrupted();
+
+/// Shows a line of progress on stderr while it lives, if stderr is a terminal.
+class ProgressLine {
+ public:
+  explicit ProgressLine(bool wanted);
+  ~ProgressLine();
+  ProgressLine(const ProgressLine&) = delete;
+  ProgressLine& operator=(const ProgressLine&) = delete;
+  void show(const Progress& progress);
+
+ private:
+  bool active_;
+  bool shown_ = false;
+};
+
+}  // namespace wrapatlas::cli

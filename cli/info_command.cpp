@@ -1,0 +1,106 @@
+// wrapatlas info: what a model holds, and what packing it would work on.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "common.h"
+#include "wrapatlas/charts.h"
+#include "wrapatlas/model.h"
+
+namespace wrapatlas::cli {
+namespace {
+
+struct InfoArguments {
+  std::string input, json;
+  int texcoord = 0;
+};
+
+/// The numbers of a chart set that packing depends on.
+Json describe_charts(const ChartSet& set) {
+  std::vector<double> areas;
+  Box2 box;
+  std::size_t triangles = 0;
+  for (const Chart& chart : set.charts) {
+    areas.push_back(chart.area);
+    triangles += chart.triangles.size();
+    if (!chart.box.empty()) {
+      box.add(chart.box.min);
+      box.add(chart.box.max);
+    }
+  }
+  std::sort(areas.begin(), areas.end());
+  return {{"count", set.charts.size()},
+          {"triangles", triangles},
+          {"area", set.total_area()},
+          {"area_smallest", areas.front()},
+          {"area_median", areas[areas.size() / 2]},
+          {"area_largest", areas.back()},
+          {"uv_min", {box.min.x, box.min.y}},
+          {"uv_max", {box.max.x, box.max.y}},
+          {"stacked", set.stacked},
+          {"self_overlapping", set.self_overlapping},
+          {"degenerate", set.degenerate},
+          {"faces_without_uv", set.faces_without_uv}};
+}
+
+void print_text(const InfoArguments& arguments, const Model& model, const Json& charts) {
+  fmt::print("{}\n  {} faces, {} vertices, {} UVs\n", arguments.input, model.mesh.face_count(),
+             model.mesh.positions.size(), model.mesh.texcoords.size());
+  if (charts.is_null()) {
+    fmt::print("  no UVs, so there is nothing to pack\n");
+  } else {
+    fmt::print("  {} charts, {} triangles\n", charts["count"].get<std::size_t>(),
+               charts["triangles"].get<std::size_t>());
+    fmt::print("  UV range [{:.4g}, {:.4g}] x [{:.4g}, {:.4g}]\n",
+               charts["uv_min"][0].get<double>(), charts["uv_max"][0].get<double>(),
+               charts["uv_min"][1].get<double>(), charts["uv_max"][1].get<double>());
+    fmt::print("  chart area: total {:.4g}, smallest {:.4g}, median {:.4g}, largest {:.4g}\n",
+               charts["area"].get<double>(), charts["area_smallest"].get<double>(),
+               charts["area_median"].get<double>(), charts["area_largest"].get<double>());
+    fmt::print(
+        "  {} charts overlap others, {} overlap themselves, {} have no area, {} faces have no "
+        "UVs\n",
+        charts["stacked"].get<unsigned>(), charts["self_overlapping"].get<unsigned>(),
+        charts["degenerate"].get<unsigned>(), charts["faces_without_uv"].get<unsigned>());
+  }
+  for (const std::string& remark : model.remarks) fmt::print("  note: {}\n", remark);
+}
+
+int run(const InfoArguments& arguments) {
+  LoadOptions load_options;
+  load_options.texcoord_set = arguments.texcoord;
+  const auto model = load_model(arguments.input, load_options);
+  if (!model) return report_error(model.error());
+  const auto set = build_charts(model->mesh);
+  const Json charts = set ? describe_charts(*set) : Json();
+  if (arguments.json.empty()) {
+    print_text(arguments, *model, charts);
+    return 0;
+  }
+  const Json object = {{"version", WRAPATLAS_VERSION},
+                       {"command", "info"},
+                       {"input", arguments.input},
+                       {"faces", model->mesh.face_count()},
+                       {"vertices", model->mesh.positions.size()},
+                       {"uvs", model->mesh.texcoords.size()},
+                       {"charts", charts},
+                       {"remarks", model->remarks}};
+  const Status ok = write_json(arguments.json, object);
+  return ok ? 0 : report_error(ok.error());
+}
+
+}  // namespace
+
+Command make_info_command(CLI::App& parser) {
+  auto arguments = std::make_shared<InfoArguments>();
+  CLI::App& app = *parser.add_subcommand("info", "Say what a model holds");
+  app.add_option("input", arguments->input, "Model: .obj .ply .off .stl .gltf .glb")->required();
+  app.add_option("--texcoord", arguments->texcoord, "UV set of a glTF: K of TEXCOORD_K")
+      ->check(CLI::Range(0, 15))
+      ->capture_default_str();
+  app.add_option("--json", arguments->json, "Write it as JSON to a file, or - for standard output");
+  return {&app, [arguments] { return run(*arguments); }};
+}
+
+}  // namespace wrapatlas::cli

@@ -69,23 +69,25 @@ class GapFinder : public Visitor {
  private:
   /// A crowd of one group beside a few others must not cost the square of the crowd.
   void compare_all(const std::vector<Placed>& placed) {
-    constexpr std::size_t kCrowd = 256;
-    std::vector<Placed> crowd, rest;
-    if (placed.size() > kCrowd) {
-      const Entry most = largest_group(placed);
-      for (const Placed& p : placed) (p.entry->same_group(most) ? crowd : rest).push_back(p);
-    }
-    if (4 * crowd.size() <= placed.size()) {
+    const auto [crowd, rest] = split_off_crowd(placed);
+    if (crowd.empty()) {
       for (std::size_t i = 0; i < placed.size() && !worst.full(); ++i) {
         compare_onwards(placed[i], std::span(placed).subspan(i + 1));
       }
       return;
     }
-    compare_two(near_to(rest, crowd), near_to(crowd, rest));
+    compare_two(crowd, rest);
     compare_all(rest);
   }
 
-  void compare_two(const std::vector<Placed>& one, const std::vector<Placed>& other) {
+  void compare_two(const std::vector<Placed>& some, const std::vector<Placed>& others) {
+    const std::vector<Placed> one = near_to(others, some), other = near_to(some, others);
+    if (one.empty() || other.empty()) return;
+    if (const auto [crowd, rest] = split_off_crowd(other); !rest.empty() && !crowd.empty()) {
+      compare_two(one, crowd);
+      compare_two(one, rest);
+      return;
+    }
     std::size_t i = 0, j = 0;
     while (i < one.size() && j < other.size() && !worst.full()) {
       if (one[i].box.min.x <= other[j].box.min.x) {
@@ -94,6 +96,18 @@ class GapFinder : public Visitor {
         compare_onwards(other[j++], std::span(one).subspan(i));
       }
     }
+  }
+
+  /// The largest group, if it is a good part of many, and all others; else nothing and all.
+  static std::pair<std::vector<Placed>, std::vector<Placed>> split_off_crowd(
+      const std::vector<Placed>& placed) {
+    constexpr std::size_t kMany = 256;
+    if (placed.size() <= kMany) return {{}, placed};
+    std::vector<Placed> crowd, rest;
+    const Entry most = largest_group(placed);
+    for (const Placed& p : placed) (p.entry->same_group(most) ? crowd : rest).push_back(p);
+    if (4 * crowd.size() < placed.size()) return {{}, placed};
+    return {std::move(crowd), std::move(rest)};
   }
 
   /// Those of `some` that are not too far from the box around `others`.
@@ -147,6 +161,7 @@ class GapFinder : public Visitor {
         a.entry->image_x == b.entry->image_x && a.entry->image_y == b.entry->image_y;
     const bool pieces = a.stack == b.stack && same_image;
     if (pieces && a.chart != b.chart) return;
+    if (surely_apart(a.corners, b.corners, std::max(limits_.padding, smallest_gap))) return;
     const Violation overlap = a.chart == b.chart ? Violation::self_overlap : Violation::overlap;
     const double tolerance = kSlack + limits_.rounding[a.chart] + limits_.rounding[b.chart];
     const double depth = overlap_depth(a.corners, b.corners, tolerance);

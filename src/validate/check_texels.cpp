@@ -117,8 +117,7 @@ Status Checker::remark_folds() {
   findings_.remark_rest(number, "charts overlap themselves");
   if (!folds->complete) {
     report_.remarks.emplace_back(
-        "where thousands of triangles of a chart meet in one place, it was "
-        "not checked for folds");
+        "where thousands of triangles crowd in one place, charts were not checked for folds");
   }
   return Done{};
 }

@@ -63,29 +63,105 @@ class GapFinder : public Visitor {
   }
 
   void leaf(std::span<const Entry> entries, const Box2& /*region*/) override {
-    const std::vector<Placed> placed = place(space_, entries);
-    for (std::size_t i = 0; i < placed.size() && !worst.full(); ++i) {
-      const Placed& a = placed[i];
-      for (std::size_t j = i + 1; j < placed.size(); ++j) {
-        const Placed& b = placed[j];
-        const double horizontal = b.box.min.x - a.box.max.x;
-        const double near = std::max(limits_.padding, smallest_gap);
-        if (horizontal > near) break;
-        if (a.entry->same_group(*b.entry)) continue;
-        const double vertical =
-            std::max({b.box.min.y - a.box.max.y, a.box.min.y - b.box.max.y, 0.0});
-        if (vertical > near) continue;
-        compare(a, b);
+    compare_all(place(space_, entries));
+  }
+
+ private:
+  /// A crowd of one group beside a few others must not cost the square of the crowd.
+  void compare_all(const std::vector<Placed>& placed) {
+    const auto [crowd, rest] = split_off_crowd(placed);
+    if (crowd.empty()) {
+      for (std::size_t i = 0; i < placed.size() && !worst.full(); ++i) {
+        compare_onwards(placed[i], std::span(placed).subspan(i + 1));
+      }
+      return;
+    }
+    compare_two(crowd, rest);
+    compare_all(rest);
+  }
+
+  void compare_two(const std::vector<Placed>& some, const std::vector<Placed>& others) {
+    const std::vector<Placed> one = near_to(others, some), other = near_to(some, others);
+    if (one.empty() || other.empty()) return;
+    if (const auto [crowd, rest] = split_off_crowd(other); !rest.empty() && !crowd.empty()) {
+      compare_two(one, crowd);
+      compare_two(one, rest);
+      return;
+    }
+    std::size_t i = 0, j = 0;
+    while (i < one.size() && j < other.size() && !worst.full()) {
+      if (one[i].box.min.x <= other[j].box.min.x) {
+        compare_onwards(one[i++], std::span(other).subspan(j));
+      } else {
+        compare_onwards(other[j++], std::span(one).subspan(i));
       }
     }
   }
 
- private:
+  /// The largest group, if it is a good part of many, and all others; else nothing and all.
+  static std::pair<std::vector<Placed>, std::vector<Placed>> split_off_crowd(
+      const std::vector<Placed>& placed) {
+    constexpr std::size_t kMany = 256;
+    if (placed.size() <= kMany) return {{}, placed};
+    std::vector<Placed> crowd, rest;
+    const Entry most = largest_group(placed);
+    for (const Placed& p : placed) (p.entry->same_group(most) ? crowd : rest).push_back(p);
+    if (4 * crowd.size() < placed.size()) return {{}, placed};
+    return {std::move(crowd), std::move(rest)};
+  }
+
+  /// Those of `some` that are not too far from the box around `others`.
+  [[nodiscard]] std::vector<Placed> near_to(const std::vector<Placed>& others,
+                                            const std::vector<Placed>& some) const {
+    Box2 all;
+    for (const Placed& p : others) {
+      all.add(p.box.min);
+      all.add(p.box.max);
+    }
+    const double near = std::max(limits_.padding, smallest_gap);
+    std::vector<Placed> kept;
+    for (const Placed& p : some) {
+      const double x = std::max(p.box.min.x - all.max.x, all.min.x - p.box.max.x);
+      const double y = std::max(p.box.min.y - all.max.y, all.min.y - p.box.max.y);
+      if (x <= near && y <= near) kept.push_back(p);
+    }
+    return kept;
+  }
+
+  static Entry largest_group(const std::vector<Placed>& placed) {
+    std::vector<Entry> entries;
+    for (const Placed& p : placed) entries.push_back(*p.entry);
+    std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
+      return std::tie(a.group, a.image_x, a.image_y) < std::tie(b.group, b.image_x, b.image_y);
+    });
+    std::size_t best = 0, longest = 0;
+    for (std::size_t i = 0, begin = 0; i < entries.size(); ++i) {
+      if (!entries[i].same_group(entries[begin])) begin = i;
+      if (i - begin >= longest) {
+        longest = i - begin + 1;
+        best = begin;
+      }
+    }
+    return entries[best];
+  }
+
+  /// With those that begin right of where `a` begins, in that order.
+  void compare_onwards(const Placed& a, std::span<const Placed> others) {
+    for (const Placed& b : others) {
+      const double near = std::max(limits_.padding, smallest_gap);
+      if (b.box.min.x - a.box.max.x > near) break;
+      if (a.entry->same_group(*b.entry)) continue;
+      const double vertical = std::max(b.box.min.y - a.box.max.y, a.box.min.y - b.box.max.y);
+      if (vertical <= near) compare(a, b);
+    }
+  }
+
   void compare(const Placed& a, const Placed& b) {
     const bool same_image =
         a.entry->image_x == b.entry->image_x && a.entry->image_y == b.entry->image_y;
     const bool pieces = a.stack == b.stack && same_image;
     if (pieces && a.chart != b.chart) return;
+    if (surely_apart(a.corners, b.corners, std::max(limits_.padding, smallest_gap))) return;
     const Violation overlap = a.chart == b.chart ? Violation::self_overlap : Violation::overlap;
     const double tolerance = kSlack + limits_.rounding[a.chart] + limits_.rounding[b.chart];
     const double depth = overlap_depth(a.corners, b.corners, tolerance);

@@ -59,6 +59,21 @@ double overlap_depth(const Triangle& a, const Triangle& b, double tolerance) {
   return least < std::numeric_limits<double>::infinity() ? std::sqrt(least) : 0;
 }
 
+bool surely_apart(const Triangle& a, const Triangle& b, double distance) {
+  const double squared = distance * distance * (1 + 1e-9);
+  for (const Triangle* owner : {&a, &b}) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Vec2 origin = (*owner)[i];
+      const Vec2 edge = (*owner)[(i + 1) % 3] - origin;
+      const Vec2 axis{-edge.y, edge.x};
+      const Interval of_a = shadow(a, axis, origin), of_b = shadow(b, axis, origin);
+      const double gap = std::max(of_a.lo, of_b.lo) - std::min(of_a.hi, of_b.hi);
+      if (gap > 0 && gap * gap > squared * dot(edge, edge)) return true;
+    }
+  }
+  return false;
+}
+
 Closest closest_points(const Triangle& a, const Triangle& b) {
   for (std::size_t i = 0; i < 3; ++i) {
     if (strictly_inside(a[i], b)) return {0, a[i], a[i]};

@@ -16,6 +16,9 @@ using Triangle = std::array<Vec2, 3>;
 /// it is not above `tolerance`, and for triangles without interior.
 double overlap_depth(const Triangle& a, const Triangle& b, double tolerance);
 
+/// True only if the triangles are further apart than `distance`; cheap, and not always true then.
+bool surely_apart(const Triangle& a, const Triangle& b, double distance);
+
 /// Two points, one of each triangle, that are closest, and their distance. Triangles without
 /// interior count as the segment or point they are.
 struct Closest {

@@ -211,6 +211,7 @@ TEST(ValidateOracle, DistanceAndDepthOfPairs) {
     EXPECT_TRUE(depth > 0 || area < 1e-7) << area;
     EXPECT_TRUE(area > 0 || depth < 1e-7) << depth;
     EXPECT_NEAR(length(closest.on_a - closest.on_b), closest.distance, 1e-12);
+    EXPECT_FALSE(validate::surely_apart(a, b, closest.distance * (1 + 1e-9)));
     if (depth > 0) {
       ++meet;
       EXPECT_EQ(closest.distance, 0);

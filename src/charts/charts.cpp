@@ -12,6 +12,9 @@ namespace {
 /// A count of stacked charts is information only: it may cost this many outline edges.
 constexpr double kMostStackedSteps = 3e6;
 
+/// Where it decides what is packed, only a hostile input reaches the end of the search.
+constexpr double kMostKeepSteps = 1e8;
+
 /// A chart this thin (area / radius^2) has no area to speak of.
 constexpr double kDegenerate = 1e-12;
 
@@ -119,7 +122,7 @@ std::uint32_t count_stacked(std::span<const Chart> charts) {
 
 void keep_stacks(const Mesh& mesh, ChartSet& set) {
   const auto count = static_cast<std::uint32_t>(set.charts.size());
-  UnionFind groups = group_stacked(set.charts);
+  UnionFind groups = group_stacked(set.charts, kMostKeepSteps);
   std::vector<std::uint32_t> stack_of(count), point_offset(count, 0);
   std::vector<std::vector<std::uint32_t>> stacks;
   for (std::uint32_t chart = 0; chart < count; ++chart) {

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <vector>
 
@@ -18,7 +17,6 @@ inline constexpr double kStackedShare = 1e-6;
 /// The sets of charts that are stacked with each other, directly or over others. After about
 /// `most_steps` outline edges looked at the search ends, and some stacks may not be found.
 /// Sweeps over boxes; pairs within a set that is known already cost nothing.
-UnionFind group_stacked(std::span<const Chart> charts,
-                        double most_steps = std::numeric_limits<double>::infinity());
+UnionFind group_stacked(std::span<const Chart> charts, double most_steps);
 
 }  // namespace wrapatlas

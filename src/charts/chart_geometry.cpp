@@ -63,15 +63,16 @@ std::vector<OutlineEdge> net_edges(const Chart& chart, const Orientation& orient
 void measure_extent(Chart& chart) {
   if (chart.box.empty()) return;
   const Vec2 centre = 0.5 * (chart.box.min + chart.box.max);
-  for (const OutlineEdge& edge : chart.outline) {
-    chart.max_radius = std::max({chart.max_radius, length(chart.points[edge.from] - centre),
-                                 length(chart.points[edge.to] - centre)});
-  }
+  double farthest = 0;  // squared
+  const auto reach = [&](std::uint32_t p) {
+    const Vec2 d = chart.points[p] - centre;
+    farthest = std::max(farthest, dot(d, d));
+  };
+  for (const OutlineEdge& edge : chart.outline) reach(edge.from);
   for (const auto& triangle : chart.triangles) {
-    for (const std::uint32_t p : triangle) {
-      chart.max_radius = std::max(chart.max_radius, length(chart.points[p] - centre));
-    }
+    for (const std::uint32_t p : triangle) reach(p);
   }
+  chart.max_radius = std::sqrt(farthest);
 }
 
 }  // namespace

@@ -10,7 +10,10 @@ namespace wrapatlas {
 namespace {
 
 /// A count of stacked charts is information only: it may cost this many outline edges.
-constexpr double kMostStackedSteps = 2e7;
+constexpr double kMostStackedSteps = 3e6;
+
+/// Where it decides what is packed, only a hostile input reaches the end of the search.
+constexpr double kMostKeepSteps = 1e8;
 
 /// A chart this thin (area / radius^2) has no area to speak of.
 constexpr double kDegenerate = 1e-12;
@@ -108,9 +111,18 @@ Chart concatenate(std::span<const Chart> charts, std::span<const std::uint32_t> 
   return chart_from_triangles(std::move(points), std::move(triangles));
 }
 
+std::uint32_t count_stacked(std::span<const Chart> charts) {
+  UnionFind groups = group_stacked(charts, kMostStackedSteps);
+  std::vector<std::uint32_t> size(charts.size(), 0);
+  for (std::uint32_t i = 0; i < charts.size(); ++i) ++size[groups.find(i)];
+  std::uint32_t stacked = 0;
+  for (const std::uint32_t n : size) stacked += n > 1 ? n : 0;
+  return stacked;
+}
+
 void keep_stacks(const Mesh& mesh, ChartSet& set) {
   const auto count = static_cast<std::uint32_t>(set.charts.size());
-  UnionFind groups = group_stacked(set.charts);
+  UnionFind groups = group_stacked(set.charts, kMostKeepSteps);
   std::vector<std::uint32_t> stack_of(count), point_offset(count, 0);
   std::vector<std::vector<std::uint32_t>> stacks;
   for (std::uint32_t chart = 0; chart < count; ++chart) {
@@ -164,7 +176,7 @@ Result<ChartSet> build_charts(const Mesh& mesh, Stacked stacked) {
   if (stacked == Stacked::keep) {
     keep_stacks(mesh, set);
   } else {
-    for (const bool marked : mark_stacked(set.charts, kMostStackedSteps)) set.stacked += marked;
+    set.stacked = count_stacked(set.charts);
   }
   return set;
 }

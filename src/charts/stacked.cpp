@@ -46,9 +46,39 @@ class PairTest {
   std::vector<SweepEdge> edges_;
 };
 
-/// Calls test(i, j) for pairs of charts of some area whose boxes overlap, until it returns false.
-template <typename Test>
-void for_overlapping_boxes(std::span<const Chart> charts, Test&& test) {
+/// Charts on the sweep line, in the sets known so far.
+using OpenSets = std::vector<std::vector<std::uint32_t>>;
+
+/// Does chart i lie on a chart of the set? Charts that the sweep line has left drop out.
+bool touches_set(std::span<const Chart> charts, std::uint32_t i, std::vector<std::uint32_t>& set,
+                 PairTest& pair) {
+  const Box2& box = charts[i].box;
+  for (std::size_t k = 0; k < set.size();) {
+    const Box2& other = charts[set[k]].box;
+    if (other.max.x <= box.min.x) {
+      set[k] = set.back();
+      set.pop_back();
+      continue;
+    }
+    pair.steps += 1;
+    if (other.min.y < box.max.y && box.min.y < other.max.y &&
+        pair.stacked(charts[i], charts[set[k]])) {
+      return true;
+    }
+    ++k;
+  }
+  return false;
+}
+
+void join(std::vector<std::uint32_t>& into, std::vector<std::uint32_t>& from) {
+  if (into.size() < from.size()) into.swap(from);
+  into.insert(into.end(), from.begin(), from.end());
+  from.clear();
+}
+
+}  // namespace
+
+UnionFind group_stacked(std::span<const Chart> charts, double most_steps) {
   std::vector<std::uint32_t> order;
   for (std::uint32_t i = 0; i < charts.size(); ++i) {
     if (charts[i].area > 0) order.push_back(i);
@@ -56,42 +86,20 @@ void for_overlapping_boxes(std::span<const Chart> charts, Test&& test) {
   std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
     return charts[a].box.min.x < charts[b].box.min.x;
   });
-  std::vector<std::uint32_t> open;
-  for (const std::uint32_t i : order) {
-    const Box2& box = charts[i].box;
-    std::erase_if(open, [&](std::uint32_t j) { return charts[j].box.max.x <= box.min.x; });
-    for (const std::uint32_t j : open) {
-      const Box2& other = charts[j].box;
-      if (other.max.y <= box.min.y || box.max.y <= other.min.y) continue;
-      if (!test(i, j)) return;
-    }
-    open.push_back(i);
-  }
-}
-
-}  // namespace
-
-std::vector<bool> mark_stacked(std::span<const Chart> charts, double most_steps) {
-  std::vector<bool> marked(charts.size(), false);
-  PairTest pair;
-  for_overlapping_boxes(charts, [&](std::uint32_t i, std::uint32_t j) {
-    pair.steps += 1;
-    if (marked[i] && marked[j]) return true;
-    if (pair.stacked(charts[i], charts[j])) marked[i] = marked[j] = true;
-    return pair.steps <= most_steps;
-  });
-  return marked;
-}
-
-UnionFind group_stacked(std::span<const Chart> charts) {
   UnionFind groups(charts.size());
   PairTest pair;
-  for_overlapping_boxes(charts, [&](std::uint32_t i, std::uint32_t j) {
-    if (groups.find(i) != groups.find(j) && pair.stacked(charts[i], charts[j])) {
-      groups.unite(i, j);
+  OpenSets open;
+  for (const std::uint32_t i : order) {
+    std::vector<std::uint32_t> joined{i};
+    for (std::vector<std::uint32_t>& set : open) {
+      if (!touches_set(charts, i, set, pair)) continue;
+      groups.unite(i, set.front());
+      join(joined, set);
     }
-    return true;
-  });
+    std::erase_if(open, [](const auto& set) { return set.empty(); });
+    open.push_back(std::move(joined));
+    if (pair.steps > most_steps) break;
+  }
   return groups;
 }
 

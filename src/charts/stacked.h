@@ -14,11 +14,9 @@ namespace wrapatlas {
 /// what rounding does to charts that touch.
 inline constexpr double kStackedShare = 1e-6;
 
-/// Per chart: is it stacked with any other? After about `most_steps` edges looked at the search
-/// ends, and some stacked charts may stay unmarked.
-std::vector<bool> mark_stacked(std::span<const Chart> charts, double most_steps);
-
-/// The sets of charts that are stacked with each other, directly or over others.
-UnionFind group_stacked(std::span<const Chart> charts);
+/// The sets of charts that are stacked with each other, directly or over others. After about
+/// `most_steps` outline edges looked at the search ends, and some stacks may not be found.
+/// Sweeps over boxes; pairs within a set that is known already cost nothing.
+UnionFind group_stacked(std::span<const Chart> charts, double most_steps);
 
 }  // namespace wrapatlas

@@ -7,14 +7,16 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <optional>
 #include <span>
+#include <tuple>
 
 namespace wrapatlas {
 namespace {
 
-constexpr double kMostSteps = 3e8;
+constexpr double kMostSteps = 4e7;
 constexpr std::size_t kFewEdges = 6;
-constexpr int kMostHalvings = 40;
+constexpr int kMostHalvings = 16;  // what is left then is 4^-16 of the block's own area
 
 /// An edge pointing up, with what its crossing from left to right adds to the winding numbers.
 struct Rising {
@@ -48,23 +50,25 @@ double measure_of(Measure measure, const Winding& c) {
 
 class Sweep {
  public:
-  Sweep(std::vector<Rising> edges, Measure measure) : edges_(std::move(edges)), measure_(measure) {
-    std::sort(edges_.begin(), edges_.end(),
-              [](const Rising& a, const Rising& b) { return a.low.y < b.low.y; });
-  }
+  /// `edges` in the order of their low ends.
+  Sweep(std::vector<Rising> edges, Measure measure) : edges_(std::move(edges)), measure_(measure) {}
 
-  double exact(const std::vector<double>& ys, double enough) {
+  /// Nothing, if it takes too long.
+  std::optional<double> exact(const std::vector<double>& ys, double enough) {
     double sum = 0;
     for (std::size_t i = 0; i + 1 < ys.size() && sum <= enough; ++i) {
       advance(ys[i], ys[i], ys[i + 1]);
       Winding c{};
       sum += slab(active_, ys[i], ys[i + 1], c, 0);
+      if (steps_ > kMostSteps) return std::nullopt;
     }
     return sum;
   }
 
   double sampled(double low, double high, std::size_t lines, double enough) {
     const double step = (high - low) / static_cast<double>(lines);
+    active_.clear();
+    next_ = 0;
     double sum = 0;
     for (std::size_t i = 0; i < lines && sum <= enough; ++i) {
       const double y = low + (static_cast<double>(i) + 0.5) * step;
@@ -106,6 +110,7 @@ class Sweep {
   // `row` is ordered at y0; c is the winding on its left, then on its right.
   double slab(std::span<Active> row, double y0, double y1, Winding& c, int depth) {
     const double height = y1 - y0;
+    steps_ += static_cast<double>(row.size());
     double leftmost = std::numeric_limits<double>::infinity();
     for (std::size_t i = row.size(); i-- > 0;) {
       row[i].leftmost_x1 = leftmost = std::min(leftmost, row[i].x1);
@@ -187,6 +192,7 @@ class Sweep {
   Measure measure_;
   std::vector<Active> active_, line_;
   std::size_t next_ = 0;
+  double steps_ = 0;
 };
 
 struct Direction {
@@ -194,6 +200,25 @@ struct Direction {
   std::vector<double> ys;
   double steps = 0;
 };
+
+// Copies of a chart on top of each other have the same edges.
+void merge_coinciding(std::vector<Rising>& edges) {
+  std::sort(edges.begin(), edges.end(), [](const Rising& a, const Rising& b) {
+    return std::tie(a.low.y, a.low.x, a.high.y, a.high.x) <
+           std::tie(b.low.y, b.low.x, b.high.y, b.high.x);
+  });
+  std::size_t kept = 0;
+  for (const Rising& edge : edges) {
+    if (kept > 0 && edges[kept - 1].low == edge.low && edges[kept - 1].high == edge.high) {
+      edges[kept - 1].step[0] += edge.step[0];
+      edges[kept - 1].step[1] += edge.step[1];
+    } else {
+      edges[kept++] = edge;
+    }
+  }
+  edges.resize(kept);
+  std::erase_if(edges, [](const Rising& e) { return e.step == Winding{}; });
+}
 
 Direction sweep_along(const std::vector<SweepEdge>& edges, const Box2& window, bool swap_axes) {
   const Vec2 centre = 0.5 * (window.min + window.max);
@@ -217,6 +242,7 @@ Direction sweep_along(const std::vector<SweepEdge>& edges, const Box2& window, b
       if (low < y && y < high) d.ys.push_back(y);
     }
   }
+  merge_coinciding(d.edges);
   std::sort(d.ys.begin(), d.ys.end());
   d.ys.erase(std::unique(d.ys.begin(), d.ys.end()), d.ys.end());
   const auto rank = [&](double y) { return std::lower_bound(d.ys.begin(), d.ys.end(), y); };
@@ -238,8 +264,10 @@ double sweep_area(const std::vector<SweepEdge>& edges, Measure measure, const Bo
   if (!(low < high)) return 0;
   const double slabs = static_cast<double>(direction.ys.size() - 1);
   Sweep sweep(std::move(direction.edges), measure);
-  if (direction.steps <= kMostSteps) return sweep.exact(direction.ys, enough);
-  const double lines = std::max(64.0, slabs * (kMostSteps / direction.steps) / 8);
+  if (direction.steps <= kMostSteps) {
+    if (const auto sum = sweep.exact(direction.ys, enough)) return *sum;
+  }
+  const double lines = std::clamp(slabs * (kMostSteps / direction.steps) / 8, 64.0, 1e5);
   return sweep.sampled(low, high, static_cast<std::size_t>(lines), enough);
 }
 

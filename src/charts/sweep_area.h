@@ -26,8 +26,9 @@ enum class Measure {
 /// Integral of the measure over `window`'s x or y range (whichever is the cheaper sweep): pass the
 /// box of all edges for the whole plane, or a box outside which the measure is 0. Returns early
 /// with a value above `enough`. Exact up to rounding; O(E log E + E * A + K log K) for A edges on
-/// one sweep line and K crossings. Where E * A would exceed 3e8 the sweep line stops at evenly
-/// spaced places only: bounded time, and an error that is no longer rounding (about 1e-4).
+/// one sweep line and K crossings. Where that is more than 4e7 steps the sweep line stops at evenly
+/// spaced places only: bounded time, and an error that is no longer rounding (about 1e-4). What
+/// the measure is 0 everywhere for remains 0 even then.
 double sweep_area(const std::vector<SweepEdge>& edges, Measure measure, const Box2& window,
                   double enough = std::numeric_limits<double>::infinity());
 

@@ -290,6 +290,33 @@ TEST(ChartGeometry, DeepStacksStayFast) {
   EXPECT_NEAR(chart.area + chart.overlap, sum, 1e-9 * sum);
 }
 
+/// Long thin strips side by side, slanted so that every line crosses most of them; twice, the
+/// second time shifted by `shift` along the strips. Too much for an exact sweep.
+Chart slanted_strips(std::uint32_t count, double shift) {
+  const Vec2 along{0.6, 0.8}, across{0.8, -0.6};
+  std::vector<Vec2> points;
+  Triangles triangles;
+  for (std::uint32_t i = 0; i < 2 * count; ++i) {
+    const double x = 0.001 * (i / 2), y = i % 2 == 0 ? 0 : shift;
+    const auto first = static_cast<std::uint32_t>(points.size());
+    for (const Vec2 p : {Vec2{x, y}, {x + 0.0008, y}, {x + 0.0008, y + 10}, {x, y + 10}}) {
+      points.push_back(p.x * across + p.y * along);
+    }
+    triangles.push_back({first, first + 1, first + 2});
+    triangles.push_back({first, first + 2, first + 3});
+  }
+  return chart_from_triangles(points, triangles);
+}
+
+TEST(ChartGeometry, TooManyStepsForAnExactSweep) {
+  const std::uint32_t count = 2000;
+  EXPECT_EQ(slanted_strips(count, 11).overlap, 0);  // end to end, with a gap
+  const double strip = 0.0008 * 10;
+  const Chart chart = slanted_strips(count, 4);
+  EXPECT_NEAR(chart.overlap, 0.6 * strip * count, 1e-3 * strip * count);
+  EXPECT_NEAR(chart.area + chart.overlap, 2 * strip * count, 1e-9);
+}
+
 TEST(ChartGeometry, LoopsMakeTheSameChart) {
   const std::vector<std::vector<Vec2>> loops{{{0, 0}, {4, 0}, {4, 4}, {0, 4}},
                                              {{1, 1}, {1, 2}, {2, 2}, {2, 1}}};

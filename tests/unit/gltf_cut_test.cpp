@@ -122,7 +122,8 @@ CutTriangle cut_triangle(const std::string& name) {
   b.json["extensionsUsed"] = b.json["extensionsRequired"] = {"KHR_mesh_quantization"};
   for (int i = 0; i < 6; ++i) b.json["nodes"].push_back(Json::object());
   b.json["nodes"][0]["skin"] = 0;
-  b.json["scenes"][0]["nodes"] = {0, 1, 2, 3, 4, 5, 6};
+  b.json["nodes"][1]["children"] = {2, 3, 4, 5, 6};
+  b.json["scenes"][0]["nodes"] = {0, 1};
   b.json["skins"] = {{{"joints", {1, 2, 3, 4, 5, 6}}}};
   const auto model = read_gltf(b.glb(), true, "in.glb", "/nonexistent/in", {});
   EXPECT_TRUE(model) << model.error().message();

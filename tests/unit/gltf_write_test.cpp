@@ -131,9 +131,9 @@ GltfBuilder rich_cube() {
   Json& primitive = b.primitive(0, attributes, static_cast<int>(b.accessor(kCubeIndices, 1)));
   primitive["targets"] = {{{"POSITION", target}}, {{"POSITION", sparse}}};
   b.json["nodes"][0]["skin"] = 0;
-  b.json["nodes"].push_back({{"name", "joint"}});
+  b.json["nodes"].push_back({{"name", "joint"}, {"children", {2}}});
   b.json["nodes"].push_back({{"name", "other"}});
-  b.json["scenes"][0]["nodes"] = {0, 1, 2};
+  b.json["scenes"][0]["nodes"] = {0, 1};
   b.json["skins"] = {{{"joints", {1, 2}}}};
   const auto times = b.accessor<float>({0, 1}, 1);
   b.json["accessors"][times]["min"] = {0};

@@ -10,6 +10,9 @@
 namespace wrapatlas {
 namespace {
 
+constexpr const char* kDraco = "KHR_draco_mesh_compression";
+constexpr const char* kManifold = "EXT_mesh_manifold";
+
 template <typename T>
 std::string packed_as(const std::vector<std::uint32_t>& indices) {
   std::string bytes(indices.size() * sizeof(T), '\0');
@@ -152,6 +155,7 @@ Status write_arrays(const GltfContents& contents, const GltfPlans& plans, GltfEd
     Json attributes, targets;
   };
   std::vector<Arrays> arrays(plans.layers.size());
+  bool draco = false, manifold = false;
   for (const GltfPlan& plan : plans.plans) {
     const GltfLayer& layer = plans.layers[plan.layer];
     Arrays& made = arrays[plan.layer];
@@ -179,14 +183,12 @@ Status write_arrays(const GltfContents& contents, const GltfPlans& plans, GltfEd
       if (json.contains("mode")) json["mode"] = 4;
     }
     // Copies of the old geometry that readers would prefer.
-    if (remove_extension(json, "KHR_draco_mesh_compression")) {
-      unlist_extension(edit.json, "KHR_draco_mesh_compression");
-    }
+    if (remove_extension(json, kDraco)) draco = true;
     Json& mesh = edit.json["meshes"][plan.primitive->mesh];
-    if (plan.new_indices && remove_extension(mesh, "EXT_mesh_manifold")) {
-      unlist_extension(edit.json, "EXT_mesh_manifold");
-    }
+    if (plan.new_indices && remove_extension(mesh, kManifold)) manifold = true;
   }
+  if (draco) unlist_extension(edit.json, kDraco);
+  if (manifold) unlist_extension(edit.json, kManifold);
   return Done{};
 }
 

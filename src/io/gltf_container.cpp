@@ -113,11 +113,11 @@ Status check_buffer_views(const GltfFile& file) {
     }
     if (file.buffers[*buffer].storage == GltfBuffer::Storage::absent) {
       const Json* extensions = find_member(view, "extensions");
-      const std::string extension =
-          extensions != nullptr && extensions->is_object() && !extensions->empty()
-              ? extensions->begin().key()
-              : "an extension";
-      return file.error(place, fmt::format("its data is compressed by {}", extension),
+      if (extensions == nullptr || !extensions->is_object() || extensions->empty()) {
+        return file.error(place, fmt::format("buffer {} has no data", *buffer));
+      }
+      return file.error(place,
+                        fmt::format("its data is compressed by {}", extensions->begin().key()),
                         "decompress it first, e.g. with gltf-transform");
     }
     const auto offset = integer_member(view, "byteOffset", 0);

@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
+#include <string>
 #include <string_view>
 
 #include "io/gltf_primitives.h"
@@ -22,17 +24,24 @@ bool extended_by(const Json& value, const std::string& extension) {
   return extensions != nullptr && find_member(*extensions, extension.c_str()) != nullptr;
 }
 
+void add_extensions(const Json& value, std::set<std::string>& names) {
+  const Json* extensions = find_member(value, "extensions");
+  if (extensions == nullptr) return;
+  for (const auto& item : extensions->items()) names.insert(item.key());
+}
+
 /// An extension that we do not know can change the geometry only from where the geometry is.
-bool touches_geometry(const Json& json, const std::string& extension) {
+std::set<std::string> extensions_of_geometry(const Json& json) {
+  std::set<std::string> names;
   for (const char* directory : {"buffers", "bufferViews", "accessors", "meshes"}) {
     for (const Json& value : array_member(json, directory)) {
-      if (extended_by(value, extension)) return true;
+      add_extensions(value, names);
       for (const Json& primitive : array_member(value, "primitives")) {
-        if (extended_by(primitive, extension)) return true;
+        add_extensions(primitive, names);
       }
     }
   }
-  return false;
+  return names;
 }
 
 /// Draco may be optional, but then the accessors must hold the data as well.
@@ -59,12 +68,13 @@ Error compressed(const GltfFile& file, std::string_view extension) {
 }  // namespace
 
 Status check_extensions(const GltfFile& file) {
+  const std::set<std::string> geometry = extensions_of_geometry(file.json);
   for (const Json& name : array_member(file.json, "extensionsRequired")) {
     if (!name.is_string()) return file.error("extensionsRequired", "an entry is not a string");
     const auto& extension = name.get_ref<const std::string&>();
     if (std::find(std::begin(kHarmless), std::end(kHarmless), extension) != std::end(kHarmless))
       continue;
-    if (touches_geometry(file.json, extension)) return compressed(file, extension);
+    if (geometry.count(extension) != 0) return compressed(file, extension);
   }
   if (draco_without_fallback(file.json)) return compressed(file, "KHR_draco_mesh_compression");
   return Done{};

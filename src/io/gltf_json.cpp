@@ -10,9 +10,8 @@ namespace {
 
 constexpr std::size_t kDeepest = 200;       // destructors and dump() recurse
 constexpr std::size_t kMostMembers = 4096;  // ordered_json looks members up one by one
-constexpr std::size_t kDirectoryCount = 7;
-constexpr const char* kDirectories[kDirectoryCount] = {
-    "buffers", "bufferViews", "accessors", "meshes", "textures", "samplers", "materials"};
+constexpr const char* kDirectories[] = {"buffers",  "bufferViews", "accessors", "meshes",
+                                        "textures", "samplers",    "materials"};
 
 std::size_t line_of(std::string_view text, std::size_t offset) {
   const auto end = text.begin() + static_cast<std::ptrdiff_t>(std::min(offset, text.size()));

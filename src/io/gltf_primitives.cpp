@@ -7,7 +7,7 @@
 namespace wrapatlas {
 namespace {
 
-constexpr std::uint64_t kStrip = 5, kFan = 6, kTriangles = 4;
+constexpr std::uint64_t kTriangles = 4, kFan = 6;  // 5: strip
 
 class Reader {
  public:

@@ -88,11 +88,12 @@ class Samplers {
   }
 
   void repeat(const std::set<std::uint64_t>& textures) {
+    const std::set<std::uint64_t> shared = samplers_of_others(textures);
     for (const std::uint64_t texture : textures) {
       std::optional<std::uint64_t> sampler = sampler_of(json_, texture);
       if (!sampler) {
         sampler = default_sampler();
-      } else if (changes(texture) && used_by_others(*sampler, textures)) {
+      } else if (changes(texture) && shared.count(*sampler) != 0) {
         sampler = clone_of(*sampler);
       }
       json_["textures"][texture]["sampler"] = *sampler;
@@ -123,12 +124,14 @@ class Samplers {
     return found->second;
   }
 
-  [[nodiscard]] bool used_by_others(std::uint64_t sampler,
-                                    const std::set<std::uint64_t>& textures) const {
+  [[nodiscard]] std::set<std::uint64_t> samplers_of_others(
+      const std::set<std::uint64_t>& textures) const {
+    std::set<std::uint64_t> samplers;
     for (std::uint64_t t = 0; t < json_["textures"].size(); ++t) {
-      if (textures.count(t) == 0 && sampler_of(json_, t) == sampler) return true;
+      const auto sampler = textures.count(t) == 0 ? sampler_of(json_, t) : std::nullopt;
+      if (sampler) samplers.insert(*sampler);
     }
-    return false;
+    return samplers;
   }
 
   Json& json_;

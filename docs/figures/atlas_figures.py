@@ -50,13 +50,12 @@ def percent(report):
 
 def demo(command, root):
     options = ("coral.glb", "--method", "modulo")
-    one, report = packed(command, root, *options)
+    one, _ = packed(command, root, *options)
     tiled, _ = packed(command, root, *options, "--image-tiles")
     size, y = 760, 64
     return sheet(1600, 840, [
-        words(24, 42, f"The atlas: {percent(report)} used; hatched parts have crossed its border",
-              24),
-        words(816, 42, "What a repeating sampler sees: whole charts", 24),
+        words(24, 42, "The atlas; hatched parts have crossed its border", 26, weight="bold"),
+        words(816, 42, "What a repeating sampler sees: whole charts", 26, weight="bold"),
         panel(one, "one", 24, y, size, numbers=False),
         panel(tiled, "tiled", 816, y, size, numbers=False)])
 

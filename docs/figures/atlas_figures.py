@@ -81,7 +81,7 @@ def four_methods(command, root):
 def of_method(method, sample):
     def draw(command, root):
         svg, report = packed(command, root, sample, "--method", method)
-        return sheet(800, 860, [
+        return sheet(800, 836, [
             words(20, 36, f"pack samples/{sample} --method {method}: {percent(report)}", 24),
             panel(svg, method, 20, 56, 760, numbers=False)])
     return draw

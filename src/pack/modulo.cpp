@@ -16,7 +16,10 @@
 // - On an axis without wrap the outer channel falls apart into the gap behind the packing (normal)
 //   and the one before it (mirrored).
 // - Ties in wasted space go to inner placements, then to the smaller growth of the packing's
-//   extent, then to the first rotation and shift tried.
+//   extent, then to the first rotation, direction, strategy and shift.
+// - A chart's own hollow is a lower bound of its wasted space, so orientations are tried by growing
+//   hollow, and those whose hollow alone exceeds the best waste are left out. This changes nothing
+//   in the result.
 
 #include <algorithm>
 #include <array>
@@ -129,14 +132,17 @@ struct Candidate {
   bool outer = true;
   int growth = 0;
   std::int32_t rotation = -1;
+  int strategy = 0;  ///< 0 to 7, in the order that settles ties
   int shift = 0, position = 0;
-  bool along_y = true;
 
   [[nodiscard]] bool better_than(const Candidate& other) const {
     if (waste != other.waste) return waste < other.waste;
     if (outer != other.outer) return !outer;
-    return growth < other.growth;
+    if (growth != other.growth) return growth < other.growth;
+    if (rotation != other.rotation) return rotation < other.rotation;
+    return strategy < other.strategy;
   }
+  [[nodiscard]] bool along_y() const { return strategy < 4; }
 };
 
 class ModuloPlacer {
@@ -149,17 +155,18 @@ class ModuloPlacer {
 
   bool place(std::span<const ChartRaster> rasters, CellPlacement& placement) {
     best_ = {};
-    for (std::size_t i = 0; i < rasters.size(); ++i) {
-      if (!board_.admits(rasters[i])) continue;
-      rotation_ = static_cast<std::int32_t>(i);
-      try_direction(along_y_, rasters[i].columns, true);
-      try_direction(along_x_, rasters[i].rows, false);
+    sort_orientations(rasters);
+    for (const Orientation& orientation : orientations_) {
+      if (orientation.hollow * std::min(1.0, task_.lambda) > best_.waste) break;
+      const ChartRaster& raster = rasters[static_cast<std::size_t>(orientation.rotation)];
+      if (!board_.admits(raster)) continue;
+      try_direction(orientation, orientation.along_y ? raster.columns : raster.rows);
     }
     if (best_.rotation < 0) return false;
     const ChartRaster& raster = rasters[static_cast<std::size_t>(best_.rotation)];
     placement.rotation = best_.rotation;
-    placement.x = best_.along_y ? best_.shift : best_.position;
-    placement.y = best_.along_y ? best_.position : best_.shift;
+    placement.x = best_.along_y() ? best_.shift : best_.position;
+    placement.y = best_.along_y() ? best_.position : best_.shift;
     placement.x = (placement.x % task_.width + task_.width) % task_.width;
     placement.y = (placement.y % task_.height + task_.height) % task_.height;
     if (board_.collides(raster, placement.x, placement.y)) return false;
@@ -170,18 +177,39 @@ class ModuloPlacer {
   }
 
  private:
-  void try_direction(const Direction& direction, const Silhouette& chart, bool along_y) {
+  /// A rotation of the chart moved along one axis.
+  struct Orientation {
+    std::int32_t hollow;
+    std::int32_t rotation;
+    bool along_y;
+  };
+
+  void sort_orientations(std::span<const ChartRaster> rasters) {
+    orientations_.clear();
+    for (std::size_t i = 0; i < rasters.size(); ++i) {
+      const auto rotation = static_cast<std::int32_t>(i);
+      orientations_.push_back({rasters[i].columns.hollow, rotation, true});
+      orientations_.push_back({rasters[i].rows.hollow, rotation, false});
+    }
+    std::stable_sort(
+        orientations_.begin(), orientations_.end(),
+        [](const Orientation& a, const Orientation& b) { return a.hollow < b.hollow; });
+  }
+
+  /// The four strategies of one direction.
+  void try_direction(const Orientation& orientation, const Silhouette& chart) {
+    const Direction& direction = orientation.along_y ? along_y_ : along_x_;
     const int shifts = direction.shifts(chart);
     if (shifts <= 0) return;
     const auto try_side = [&](const Channel& channel, Side side, bool outer) {
-      consider(direction, chart, best_rest(channel, chart, range_, 0, shifts, side), along_y,
-               outer);
+      consider(orientation, chart, best_rest(channel, chart, range_, 0, shifts, side), side, outer);
     };
-    if (task_.inner) {
+    if (task_.inner && chart.hollow <= best_.waste) {
       slide(direction.inner(), chart, shifts, range_);
       try_side(direction.inner(), Side::low, false);
       try_side(direction.inner(), Side::high, false);
     }
+    if (chart.hollow * task_.lambda > best_.waste) return;
     slide(direction.outer_normal(), chart, shifts, range_);
     try_side(direction.outer_normal(), Side::low, true);
     if (!direction.shares_outer()) slide(direction.outer_mirrored(), chart, shifts, range_);
@@ -189,17 +217,19 @@ class ModuloPlacer {
   }
 
   /// The best placement of one strategy against the best of those before.
-  void consider(const Direction& direction, const Silhouette& chart, const Rest& rest, bool along_y,
-                bool outer) {
+  void consider(const Orientation& orientation, const Silhouette& chart, const Rest& rest,
+                Side side, bool outer) {
     if (rest.shift < 0) return;
+    const Direction& direction = orientation.along_y ? along_y_ : along_x_;
     Candidate candidate;
     candidate.waste = (rest.gap + chart.hollow) * (outer ? task_.lambda : 1.0);
     candidate.outer = outer;
     candidate.shift = rest.shift;
     candidate.position = rest.position;
     candidate.growth = direction.growth(rest.position, chart.bits.length);
-    candidate.rotation = rotation_;
-    candidate.along_y = along_y;
+    candidate.rotation = orientation.rotation;
+    candidate.strategy =
+        (orientation.along_y ? 0 : 4) + (outer ? 2 : 0) + (side == Side::high ? 1 : 0);
     if (candidate.better_than(best_)) best_ = candidate;
   }
 
@@ -207,8 +237,8 @@ class ModuloPlacer {
   Board board_;
   Direction along_y_, along_x_;
   SlideResult range_;
+  std::vector<Orientation> orientations_;
   Candidate best_;
-  std::int32_t rotation_ = 0;
 };
 
 }  // namespace

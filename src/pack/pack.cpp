@@ -295,7 +295,9 @@ Result<Packing> pack(std::span<const Chart> charts, const PackOptions& options) 
     shapes.push_back(make_raster_shape(chart));
     angles.push_back(chart_angles(chart, options));
   }
-  RasterCache cache(std::move(shapes), std::move(angles));
+  // Ratios search the same scales at about the same time; one search alone meets none twice.
+  const std::size_t scales_kept = frames->size() > 1 ? 12 : 1;
+  RasterCache cache(std::move(shapes), std::move(angles), scales_kept);
   const double full_scale = std::sqrt(double(options.width) * options.height / area);
   const Packer packer(charts, options, full_scale, cache);
   ProgressMeter meter(options, frames->size());

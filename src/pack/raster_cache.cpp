@@ -39,8 +39,9 @@ std::vector<ChartRaster> ScaleRasters::rasters_at(const std::vector<double>& ang
 
 double ScaleRasters::seconds() const { return static_cast<double>(nanoseconds_.load()) * 1e-9; }
 
-RasterCache::RasterCache(std::vector<RasterShape> shapes, std::vector<std::vector<double>> angles)
-    : shapes_(std::move(shapes)), angles_(std::move(angles)) {}
+RasterCache::RasterCache(std::vector<RasterShape> shapes, std::vector<std::vector<double>> angles,
+                         std::size_t scales_kept)
+    : shapes_(std::move(shapes)), angles_(std::move(angles)), scales_kept_(scales_kept) {}
 
 std::shared_ptr<ScaleRasters> RasterCache::at(const RasterScale& scale, int max_side) {
   const auto same = [&](const std::shared_ptr<ScaleRasters>& entry) {
@@ -55,7 +56,7 @@ std::shared_ptr<ScaleRasters> RasterCache::at(const RasterScale& scale, int max_
     return recent_.front();
   }
   recent_.push_front(std::make_shared<ScaleRasters>(shapes_, angles_, scale, max_side));
-  if (recent_.size() > kScalesKept) {
+  if (recent_.size() > scales_kept_) {
     dropped_seconds_ += recent_.back()->seconds();
     recent_.pop_back();
   }

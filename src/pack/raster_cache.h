@@ -44,16 +44,17 @@ class ScaleRasters {
 /// they find them here. Thread-safe.
 class RasterCache {
  public:
-  RasterCache(std::vector<RasterShape> shapes, std::vector<std::vector<double>> angles);
+  RasterCache(std::vector<RasterShape> shapes, std::vector<std::vector<double>> angles,
+              std::size_t scales_kept);
 
   std::shared_ptr<ScaleRasters> at(const RasterScale& scale, int max_side);
   [[nodiscard]] double seconds();
   [[nodiscard]] std::size_t chart_count() const { return shapes_.size(); }
 
  private:
-  static constexpr std::size_t kScalesKept = 12;
   std::vector<RasterShape> shapes_;
   std::vector<std::vector<double>> angles_;
+  std::size_t scales_kept_;
   std::mutex mutex_;
   std::list<std::shared_ptr<ScaleRasters>> recent_;  ///< most recently used first
   double dropped_seconds_ = 0;

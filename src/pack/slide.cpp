@@ -47,38 +47,13 @@ constexpr int kTile = 64;  ///< shifts worked on together; their results stay in
   }
 }
 
-void slide_tiles_scalar(const std::int16_t* low, const std::int16_t* high, const Silhouette& chart,
-                        int shifts, std::int16_t* lowest, std::int16_t* highest) {
-  slide_tiles(low, high, chart, shifts, lowest, highest);
-}
-
-#if defined(__x86_64__)
-[[gnu::target("avx2")]] void slide_tiles_avx2(const std::int16_t* low, const std::int16_t* high,
-                                              const Silhouette& chart, int shifts,
-                                              std::int16_t* lowest, std::int16_t* highest) {
-  slide_tiles(low, high, chart, shifts, lowest, highest);
-}
-
-[[gnu::target("avx512f,avx512bw,avx512vl")]] void slide_tiles_avx512(
-    const std::int16_t* low, const std::int16_t* high, const Silhouette& chart, int shifts,
-    std::int16_t* lowest, std::int16_t* highest) {
-  slide_tiles(low, high, chart, shifts, lowest, highest);
-}
-#endif
-
-SlideFunction widest() {
-  if (SlideFunction function = slide_avx512()) return function;
-  if (SlideFunction function = slide_avx2()) return function;
-  return slide_scalar();
-}
-
-int padded(int shifts) { return (shifts + kTile - 1) / kTile * kTile; }
-
 /// gap(s) = sign * (base + lanes * position[s] - sum over filled lanes of the channel), for shifts
-/// that fit. Returns the least and its first shift. The loops of a tile are there to be vectorised.
+/// that fit; the least and its first shift.
 template <int kSign>
-void least_gap(const SlideResult& range, const std::vector<std::int32_t>& sums,
-               const Silhouette& chart, std::int32_t base, int begin, int end, Rest& rest) {
+[[gnu::always_inline]] inline void least_gap(const SlideResult& range,
+                                             const std::vector<std::int32_t>& sums,
+                                             const Silhouette& chart, std::int32_t base, int begin,
+                                             int end, Rest& rest) {
   constexpr std::int32_t kNever = std::numeric_limits<std::int32_t>::max();
   const std::int16_t* lowest = range.lowest.data();
   const std::int16_t* highest = range.highest.data();
@@ -104,6 +79,62 @@ void least_gap(const SlideResult& range, const std::vector<std::int32_t>& sums,
   }
 }
 
+[[gnu::always_inline]] inline void least_gap_to(Side side, const Channel& channel,
+                                                const Silhouette& chart, const SlideResult& range,
+                                                int begin, int end, Rest& rest) {
+  if (side == Side::low) {
+    least_gap<1>(range, channel.low_sum, chart, chart.sum_first, begin, end, rest);
+  } else {
+    const std::int32_t base = chart.filled_lanes + chart.sum_last;
+    least_gap<-1>(range, channel.high_sum, chart, base, begin, end, rest);
+  }
+}
+
+// One version of each loop per instruction set: the same source, vectorised for each.
+
+void slide_tiles_scalar(const std::int16_t* low, const std::int16_t* high, const Silhouette& chart,
+                        int shifts, std::int16_t* lowest, std::int16_t* highest) {
+  slide_tiles(low, high, chart, shifts, lowest, highest);
+}
+Rest best_rest_with_scalar(const Channel& channel, const Silhouette& chart,
+                           const SlideResult& range, int begin, int end, Side side) {
+  Rest rest;
+  least_gap_to(side, channel, chart, range, begin, end, rest);
+  return rest;
+}
+
+#if defined(__x86_64__)
+#define WRAPATLAS_AVX2 [[gnu::target("avx2")]]
+#define WRAPATLAS_AVX512 [[gnu::target("avx512f,avx512bw,avx512vl")]]
+
+WRAPATLAS_AVX2 void slide_tiles_avx2(const std::int16_t* low, const std::int16_t* high,
+                                     const Silhouette& chart, int shifts, std::int16_t* lowest,
+                                     std::int16_t* highest) {
+  slide_tiles(low, high, chart, shifts, lowest, highest);
+}
+WRAPATLAS_AVX2 Rest best_rest_with_avx2(const Channel& channel, const Silhouette& chart,
+                                        const SlideResult& range, int begin, int end, Side side) {
+  Rest rest;
+  least_gap_to(side, channel, chart, range, begin, end, rest);
+  return rest;
+}
+
+WRAPATLAS_AVX512 void slide_tiles_avx512(const std::int16_t* low, const std::int16_t* high,
+                                         const Silhouette& chart, int shifts, std::int16_t* lowest,
+                                         std::int16_t* highest) {
+  slide_tiles(low, high, chart, shifts, lowest, highest);
+}
+WRAPATLAS_AVX512 Rest best_rest_with_avx512(const Channel& channel, const Silhouette& chart,
+                                            const SlideResult& range, int begin, int end,
+                                            Side side) {
+  Rest rest;
+  least_gap_to(side, channel, chart, range, begin, end, rest);
+  return rest;
+}
+#endif
+
+int padded(int shifts) { return (shifts + kTile - 1) / kTile * kTile; }
+
 }  // namespace
 
 void Channel::resize(int lane_count, int reach) {
@@ -127,45 +158,51 @@ void Channel::extend() {
   }
 }
 
-SlideFunction slide_scalar() { return slide_tiles_scalar; }
+SlideKernels scalar_kernels() { return {slide_tiles_scalar, best_rest_with_scalar}; }
 
-SlideFunction slide_avx2() {
+SlideKernels avx2_kernels() {
 #if defined(__x86_64__)
-  if (__builtin_cpu_supports("avx2")) return slide_tiles_avx2;
+  if (__builtin_cpu_supports("avx2")) return {slide_tiles_avx2, best_rest_with_avx2};
 #endif
-  return nullptr;
+  return {};
 }
 
-SlideFunction slide_avx512() {
+SlideKernels avx512_kernels() {
 #if defined(__x86_64__)
   if (__builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl")) {
-    return slide_tiles_avx512;
+    return {slide_tiles_avx512, best_rest_with_avx512};
   }
 #endif
-  return nullptr;
+  return {};
 }
 
+namespace {
+
+const SlideKernels& widest_kernels() {
+  static const SlideKernels kernels = [] {
+    for (const SlideKernels& candidate : {avx512_kernels(), avx2_kernels()}) {
+      if (candidate.slide != nullptr) return candidate;
+    }
+    return scalar_kernels();
+  }();
+  return kernels;
+}
+
+}  // namespace
+
 void slide(const Channel& channel, const Silhouette& chart, int shifts, SlideResult& result) {
-  static const SlideFunction function = widest();
   const auto size = static_cast<std::size_t>(padded(shifts));
   if (result.lowest.size() < size) {
     result.lowest.resize(size);
     result.highest.resize(size);
   }
-  function(channel.low.data(), channel.high.data(), chart, shifts, result.lowest.data(),
-           result.highest.data());
+  widest_kernels().slide(channel.low.data(), channel.high.data(), chart, shifts,
+                         result.lowest.data(), result.highest.data());
 }
 
 Rest best_rest(const Channel& channel, const Silhouette& chart, const SlideResult& range, int begin,
                int end, Side side) {
-  Rest rest;
-  if (side == Side::low) {
-    least_gap<1>(range, channel.low_sum, chart, chart.sum_first, begin, end, rest);
-  } else {
-    const std::int32_t base = chart.filled_lanes + chart.sum_last;
-    least_gap<-1>(range, channel.high_sum, chart, base, begin, end, rest);
-  }
-  return rest;
+  return widest_kernels().best_rest(channel, chart, range, begin, end, side);
 }
 
 }  // namespace wrapatlas

@@ -34,14 +34,6 @@ struct SlideResult {
 /// Runs the widest SIMD version the machine has; all give the same numbers.
 void slide(const Channel& channel, const Silhouette& chart, int shifts, SlideResult& result);
 
-/// The SIMD versions by name, for tests and benchmarks; null where the machine lacks them.
-using SlideFunction = void (*)(const std::int16_t* low, const std::int16_t* high,
-                               const Silhouette& chart, int shifts, std::int16_t* lowest,
-                               std::int16_t* highest);
-SlideFunction slide_scalar();
-SlideFunction slide_avx2();
-SlideFunction slide_avx512();
-
 /// The side of a channel that a chart rests against.
 enum class Side { low, high };
 
@@ -58,5 +50,17 @@ struct Rest {
 ///   high: sum over filled lanes c of high[s + c] - 1 - last[c] - highest[s]
 Rest best_rest(const Channel& channel, const Silhouette& chart, const SlideResult& range, int begin,
                int end, Side side);
+
+/// The versions of both loops for one instruction set, for tests and benchmarks; null where the
+/// machine lacks it.
+struct SlideKernels {
+  void (*slide)(const std::int16_t* low, const std::int16_t* high, const Silhouette& chart,
+                int shifts, std::int16_t* lowest, std::int16_t* highest) = nullptr;
+  Rest (*best_rest)(const Channel& channel, const Silhouette& chart, const SlideResult& range,
+                    int begin, int end, Side side) = nullptr;
+};
+SlideKernels scalar_kernels();
+SlideKernels avx2_kernels();
+SlideKernels avx512_kernels();
 
 }  // namespace wrapatlas

@@ -24,6 +24,7 @@ bool place_swg03(const PlaceTask& task, std::vector<CellPlacement>& placements) 
     std::int32_t least = std::numeric_limits<std::int32_t>::max();
     CellPlacement& best = placements[chart];
     for (std::size_t i = 0; i < rasters.size(); ++i) {
+      if (rasters[i].columns.hollow >= least) continue;  // no gap can make up for it
       const Rest drop = skyline.best_drop(rasters[i]);
       if (drop.shift < 0 || drop.gap + rasters[i].columns.hollow >= least) continue;
       least = drop.gap + rasters[i].columns.hollow;

@@ -74,6 +74,7 @@ class FourSides {
         const Silhouette& chart = along_y ? rasters[i].columns : rasters[i].rows;
         const int size = chart.bits.lanes;
         if (size > across_limit || chart.bits.length > along_limit) continue;
+        if (chart.hollow >= choice.waste) continue;  // no gap can make up for it
         const int a = across.begin, b = across.end - size;
         const int begin = std::min(a, b), end = std::max(a, b) + 1;
         slide(channel, chart, end, range_);

@@ -106,12 +106,12 @@ TEST(Slide, EveryVersionAgreesWithTheDefinition) {
       channel.high[static_cast<std::size_t>(i)] = static_cast<std::int16_t>(low + random() % 200);
     }
     channel.extend();
-    for (const SlideFunction function : {slide_scalar(), slide_avx2(), slide_avx512()}) {
-      if (function == nullptr) continue;
+    for (const SlideKernels& kernels : {scalar_kernels(), avx2_kernels(), avx512_kernels()}) {
+      if (kernels.slide == nullptr) continue;
       std::vector<std::int16_t> lowest(static_cast<std::size_t>(lanes) + 64),
           highest(lowest.size());
-      function(channel.low.data(), channel.high.data(), chart.columns, lanes, lowest.data(),
-               highest.data());
+      kernels.slide(channel.low.data(), channel.high.data(), chart.columns, lanes, lowest.data(),
+                    highest.data());
       for (int s = 0; s < lanes; ++s) {
         int low = -100000, high = 100000;
         for (int c = 0; c < chart.width; ++c) {
@@ -172,11 +172,14 @@ TEST(Slide, BestRestIsTheFirstOfLeastGap) {
         }
         if (gap < expected.gap) expected = {gap, s, position};
       }
-      const Rest rest = best_rest(channel, chart.columns, range, begin, end, side);
-      ASSERT_EQ(rest.shift, expected.shift);
-      if (expected.shift < 0) continue;
-      ASSERT_EQ(rest.gap, expected.gap);
-      ASSERT_EQ(rest.position, expected.position);
+      for (const SlideKernels& kernels : {scalar_kernels(), avx2_kernels(), avx512_kernels()}) {
+        if (kernels.best_rest == nullptr) continue;
+        const Rest rest = kernels.best_rest(channel, chart.columns, range, begin, end, side);
+        ASSERT_EQ(rest.shift, expected.shift);
+        if (expected.shift < 0) continue;
+        ASSERT_EQ(rest.gap, expected.gap);
+        ASSERT_EQ(rest.position, expected.position);
+      }
     }
   }
 }

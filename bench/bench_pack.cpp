@@ -23,9 +23,9 @@ constexpr std::array<MethodRow, 4> kMethods{{{Method::lprm02, "lprm02", 0.29, 5.
                                              {Method::zsgs04, "zsgs04", 3.44, 34.25},
                                              {Method::modulo, "modulo", 4.70, 55.35}}};
 
-constexpr double kTargetSquare = 0.05;   // seconds, median, one search on one thread
-constexpr double kTargetAspects = 1.0;   // seconds, median, 31 ratios on two cores
-constexpr double kTargetRaster = 0.25;   // share of the time
+constexpr double kTargetSquare = 0.05;  // seconds, median, one search on one thread
+constexpr double kTargetAspects = 1.0;  // seconds, median, 31 ratios on two cores
+constexpr double kTargetRaster = 0.25;  // share of the time
 
 PackOptions paper_setting() {
   PackOptions options;
@@ -54,8 +54,7 @@ Times measure(const std::vector<ChartFile>& files, const PackOptions& options, i
   Times times;
   for (const ChartFile& file : files) {
     Result<Packing> packing = Error{};
-    const double seconds =
-        median_seconds(runs, [&] { packing = pack(file.set.charts, options); });
+    const double seconds = median_seconds(runs, [&] { packing = pack(file.set.charts, options); });
     if (!packing) {
       fmt::print(stderr, "{}: {}\n", file.name, packing.error().message());
       ++times.failures;
@@ -94,14 +93,14 @@ int print_table(const char* title, const std::vector<ChartFile>& files, PackOpti
     const double target = aspects ? kTargetAspects : kTargetSquare;
     const double work = times.raster + times.place;
     const bool met = middle <= target && times.raster <= kTargetRaster * work;
-    table.add({row.name, fmt::format("{:.1f}", 1e3 * middle),
-               fmt::format("{:.1f}",
-                           1e3 * *std::max_element(times.seconds.begin(), times.seconds.end())),
-               percent(times.raster, work),
-               percent(times.efficiency, static_cast<double>(times.seconds.size())),
-               fmt::format("{:.2f}", paper), fmt::format("{:.0f} x", paper / middle),
-               row.method == Method::modulo ? fmt::format("{:.0f}", 1e3 * target) : "",
-               row.method == Method::modulo ? (met ? "yes" : "no") : ""});
+    table.add(
+        {row.name, fmt::format("{:.1f}", 1e3 * middle),
+         fmt::format("{:.1f}", 1e3 * *std::max_element(times.seconds.begin(), times.seconds.end())),
+         percent(times.raster, work),
+         percent(times.efficiency, static_cast<double>(times.seconds.size())),
+         fmt::format("{:.2f}", paper), fmt::format("{:.0f} x", paper / middle),
+         row.method == Method::modulo ? fmt::format("{:.0f}", 1e3 * target) : "",
+         row.method == Method::modulo ? (met ? "yes" : "no") : ""});
   }
   table.print();
   return failures;

@@ -92,7 +92,8 @@ int bench_raster(const ChartOptions& options) {
   fmt::print("options: raster, {} files of {}, {} charts at {} angles, median of {} runs\n",
              files.size(), options.folder, shapes.size(), kRotations, options.runs);
   fmt::print("Each set is scaled to half the cells of its grid. naive / time: how often faster.\n");
-  Table table({"what", "grid", "ms", "M cells/s", "M triangles/s", "naive / time", "cells / naive"});
+  Table table(
+      {"what", "grid", "ms", "M cells/s", "M triangles/s", "naive / time", "cells / naive"});
   for (const int grid : {64, 256, 1024}) {
     const auto scale_of = [&](const ChartFile& file) {
       return grid * std::sqrt(0.5 / file.set.total_area());
@@ -103,8 +104,8 @@ int bench_raster(const ChartOptions& options) {
                  fmt::format("{:.0f}", 1e-6 * static_cast<double>(work.cells) / work.seconds),
                  fmt::format("{:.1f}", 1e-6 * triangles / work.seconds),
                  fmt::format("{:.1f} x", naive.seconds / work.seconds),
-                 fmt::format("{:.4f}", static_cast<double>(work.cells) /
-                                           static_cast<double>(naive.cells))});
+                 fmt::format("{:.4f}",
+                             static_cast<double>(work.cells) / static_cast<double>(naive.cells))});
     };
     naive = over_all(files, options.runs,
                      [&](const ChartFile& file, std::size_t, std::size_t chart, double angle) {
@@ -123,18 +124,16 @@ int bench_raster(const ChartOptions& options) {
     add("rasterize, conservative, growth 0.25", over_all(files, options.runs, run));
 
     std::vector<ChartRaster> rasters;
-    over_all(files, 1,
-             [&](const ChartFile& file, std::size_t shape, std::size_t, double angle) {
-               scale.cells_per_unit = {scale_of(file), scale_of(file)};
-               rasters.push_back(rasterize(shapes[shape], scale, angle));
-               return rasters.back().cells;
-             });
+    over_all(files, 1, [&](const ChartFile& file, std::size_t shape, std::size_t, double angle) {
+      scale.cells_per_unit = {scale_of(file), scale_of(file)};
+      rasters.push_back(rasterize(shapes[shape], scale, angle));
+      return rasters.back().cells;
+    });
     std::size_t next = 0;
     add("quarter_turned of these",
-        over_all(files, options.runs,
-                 [&](const ChartFile&, std::size_t, std::size_t, double) {
-                   return quarter_turned(rasters[next++ % rasters.size()]).cells;
-                 }));
+        over_all(files, options.runs, [&](const ChartFile&, std::size_t, std::size_t, double) {
+          return quarter_turned(rasters[next++ % rasters.size()]).cells;
+        }));
   }
   table.print();
   return 0;

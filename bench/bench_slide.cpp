@@ -36,7 +36,8 @@ Rest best_rest_plainly(const Channel& channel, const Silhouette& chart, const Sl
     if (range.lowest[s] > range.highest[s]) continue;
     std::int32_t gap = 0;
     for (std::size_t c = 0; c < chart.first.size(); ++c) {
-      if (chart.first[c] <= chart.last[c]) gap += range.lowest[s] + chart.first[c] - channel.low[s + c];
+      if (chart.first[c] <= chart.last[c])
+        gap += range.lowest[s] + chart.first[c] - channel.low[s + c];
     }
     if (gap < rest.gap) rest = {gap, static_cast<int>(s), range.lowest[s]};
   }
@@ -91,8 +92,8 @@ int bench_slide(const ChartOptions& options) {
     steps += double(kLanes) * raster.columns.filled_lanes;
   }
   const Channel channel = make_channel(reach);
-  fmt::print("options: slide, {} charts of {}, {} shifts each, median of {} runs\n",
-             rasters.size(), options.folder, kLanes, options.runs);
+  fmt::print("options: slide, {} charts of {}, {} shifts each, median of {} runs\n", rasters.size(),
+             options.folder, kLanes, options.runs);
 
   SlideResult range;
   range.lowest.resize(kLanes);
@@ -136,9 +137,8 @@ int bench_slide(const ChartOptions& options) {
   }
   std::size_t next = 0;
   const auto rest_time = [&](auto job) {
-    return time_of([&](const Silhouette& chart) {
-      keep(job(chart, ranges[next++ % ranges.size()]));
-    });
+    return time_of(
+        [&](const Silhouette& chart) { keep(job(chart, ranges[next++ % ranges.size()])); });
   };
   const double rest_plain = rest_time([&](const Silhouette& chart, const SlideResult& of_chart) {
     return best_rest_plainly(channel, chart, of_chart);

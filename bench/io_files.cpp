@@ -85,7 +85,7 @@ Status write_sheet_obj(const Sheet& sheet, const std::filesystem::path& path) {
     for_each_corner([&](int x, int y) {
       const int v = (row * kPatch + y) * width + column * kPatch + x + 1;
       const int vt = first_uv + y * (kPatch + 1) + x;
-      fmt::format_to(add, corner == 0 ? "f {}/{}" : (corner == 1 ? " {}/{}" : " {}/{}\n"), v, vt);
+      fmt::format_to(add, "{}{}/{}{}", corner == 0 ? "f " : " ", v, vt, corner == 2 ? "\n" : "");
       corner = (corner + 1) % 3;
     });
     first_uv += (kPatch + 1) * (kPatch + 1);

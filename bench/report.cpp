@@ -44,9 +44,8 @@ std::string compiler() {
 void print_machine() {
   fmt::print("machine: {}, {} cores; {}\n", processor(), std::thread::hardware_concurrency(),
              compiler());
-  fmt::print("commit:  {}\n",
-             first_line_of("git -C '" WRAPATLAS_SOURCE_DIR
-                           "' describe --always --dirty --abbrev=10 2>/dev/null"));
+  fmt::print("commit:  {}\n", first_line_of("git -C '" WRAPATLAS_SOURCE_DIR
+                                            "' describe --always --dirty --abbrev=10 2>/dev/null"));
 }
 
 double median(std::vector<double> values) {

@@ -4,7 +4,7 @@
 #   fmt             core   numbers to text and error lines, as std::format is not in g++ 12   [MIT]
 #   nlohmann-json   io     glTF's JSON, with unknown members kept in their order, and --json  [MIT]
 #   libspng         io     PNG out                                                          [BSD-2]
-#   CLI11           cli, bench  command line                                                   [BSD-3]
+#   CLI11           cli    command line, that of bench too                                  [BSD-3]
 #   GoogleTest      tests                                                                   [BSD-3]
 
 # A project that adds this one by add_subdirectory links our static libraries, so it must see the

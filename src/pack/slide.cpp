@@ -74,31 +74,27 @@ SlideFunction widest() {
 
 int padded(int shifts) { return (shifts + kTile - 1) / kTile * kTile; }
 
-/// Sum of channel values over the chart's filled lanes, for charts with empty lanes.
-std::int32_t filled_sum(const std::vector<std::int16_t>& values, const Silhouette& chart,
-                        int shift) {
-  std::int32_t sum = 0;
-  for (int c = 0; c < chart.bits.lanes; ++c) {
-    const auto i = static_cast<std::size_t>(c);
-    if (chart.first[i] <= chart.last[i]) sum += values[static_cast<std::size_t>(shift + c)];
-  }
-  return sum;
-}
-
-/// gap(s) = sign * (base + lanes * position[s] - (sum[s + lanes] - sum[s])), for shifts that fit.
-/// Returns the least and its first shift. The tile is written to be vectorised.
+/// gap(s) = sign * (base + lanes * position[s] - sum over filled lanes of the channel), for shifts
+/// that fit. Returns the least and its first shift. The loops of a tile are there to be vectorised.
 template <int kSign>
-void least_gap(const std::int16_t* lowest, const std::int16_t* highest, const std::int32_t* sum,
-               std::int32_t base, std::int32_t lanes, int begin, int end, Rest& rest) {
+void least_gap(const SlideResult& range, const std::vector<std::int32_t>& sums,
+               const Silhouette& chart, std::int32_t base, int begin, int end, Rest& rest) {
+  constexpr std::int32_t kNever = std::numeric_limits<std::int32_t>::max();
+  const std::int16_t* lowest = range.lowest.data();
+  const std::int16_t* highest = range.highest.data();
   const std::int16_t* position = kSign > 0 ? lowest : highest;
   alignas(64) std::int32_t gap[kTile];
   for (int tile = begin; tile < end; tile += kTile) {
     const int count = std::min(kTile, end - tile);
-    std::int32_t least = std::numeric_limits<std::int32_t>::max();
+    for (int k = 0; k < count; ++k) gap[k] = base + chart.filled_lanes * position[tile + k];
+    for (const Silhouette::LaneRun run : chart.filled) {
+      const std::int32_t* from = sums.data() + tile + run.begin;
+      const std::int32_t* to = sums.data() + tile + run.end;
+      for (int k = 0; k < count; ++k) gap[k] -= to[k] - from[k];
+    }
+    std::int32_t least = kNever;
     for (int k = 0; k < count; ++k) {
-      const int s = tile + k;
-      const std::int32_t value = kSign * (base + lanes * position[s] - (sum[s + lanes] - sum[s]));
-      gap[k] = lowest[s] <= highest[s] ? value : std::numeric_limits<std::int32_t>::max();
+      gap[k] = lowest[tile + k] <= highest[tile + k] ? kSign * gap[k] : kNever;
       least = std::min(least, gap[k]);
     }
     if (least >= rest.gap) continue;
@@ -163,26 +159,11 @@ void slide(const Channel& channel, const Silhouette& chart, int shifts, SlideRes
 Rest best_rest(const Channel& channel, const Silhouette& chart, const SlideResult& range, int begin,
                int end, Side side) {
   Rest rest;
-  const bool low = side == Side::low;
-  const std::int32_t lanes = chart.filled_lanes;
-  const std::int32_t base = low ? chart.sum_first : lanes + chart.sum_last;
-  if (lanes == chart.bits.lanes) {
-    if (low) {
-      least_gap<1>(range.lowest.data(), range.highest.data(), channel.low_sum.data(), base, lanes,
-                   begin, end, rest);
-    } else {
-      least_gap<-1>(range.lowest.data(), range.highest.data(), channel.high_sum.data(), base, lanes,
-                    begin, end, rest);
-    }
-    return rest;
-  }
-  for (int s = begin; s < end; ++s) {
-    const auto i = static_cast<std::size_t>(s);
-    if (range.lowest[i] > range.highest[i]) continue;
-    const int position = low ? range.lowest[i] : range.highest[i];
-    const std::int32_t sum = filled_sum(low ? channel.low : channel.high, chart, s);
-    const std::int32_t gap = (low ? 1 : -1) * (base + lanes * position - sum);
-    if (gap < rest.gap) rest = {gap, s, position};
+  if (side == Side::low) {
+    least_gap<1>(range, channel.low_sum, chart, chart.sum_first, begin, end, rest);
+  } else {
+    const std::int32_t base = chart.filled_lanes + chart.sum_last;
+    least_gap<-1>(range, channel.high_sum, chart, base, begin, end, rest);
   }
   return rest;
 }

@@ -122,6 +122,11 @@ Silhouette make_silhouette(BitLanes bits) {
     result.first[i] = static_cast<std::int16_t>(first);
     result.last[i] = static_cast<std::int16_t>(last < 0 ? 0 : last);
     if (last < 0) continue;
+    const auto lane_number = static_cast<std::int32_t>(i);
+    if (result.filled.empty() || result.filled.back().end != lane_number) {
+      result.filled.push_back({lane_number, lane_number});
+    }
+    ++result.filled.back().end;
     ++result.filled_lanes;
     result.sum_first += first;
     result.sum_last += last;
@@ -130,6 +135,36 @@ Silhouette make_silhouette(BitLanes bits) {
   result.hollow = spanned - static_cast<std::int32_t>(count_set(bits));
   result.bits = std::move(bits);
   return result;
+}
+
+/// The covered part of a raster: centre coverage can leave its outermost rows and columns bare.
+BitLanes cropped(const BitLanes& rows, int first_row, int last_row, int first_cell, int last_cell) {
+  BitLanes result(last_row - first_row + 1, last_cell - first_cell + 1);
+  for (int y = 0; y < result.lanes; ++y) {
+    for_each_run(rows.lane(first_row + y), rows.length, [&](int begin, int end) {
+      set_span(result.lane(y), begin - first_cell, end - first_cell);
+    });
+  }
+  return result;
+}
+
+/// Cuts bare rows and columns off, and moves the raster's origin with them.
+void crop(BitLanes& rows, Vec2& offset) {
+  int first_row = rows.lanes, last_row = -1, first_cell = rows.length, last_cell = -1;
+  for (int y = 0; y < rows.lanes; ++y) {
+    const int last = last_set(rows.lane(y), rows.length);
+    if (last < 0) continue;
+    first_row = std::min(first_row, y);
+    last_row = y;
+    first_cell = std::min(first_cell, next_set(rows.lane(y), rows.length, 0));
+    last_cell = std::max(last_cell, last);
+  }
+  if (first_row == 0 && first_cell == 0 && last_row == rows.lanes - 1 &&
+      last_cell == rows.length - 1) {
+    return;
+  }
+  rows = cropped(rows, first_row, last_row, first_cell, last_cell);
+  offset = offset - Vec2{double(first_cell), double(first_row)};
 }
 
 }  // namespace
@@ -214,6 +249,11 @@ ChartRaster rasterize(const RasterShape& shape, const RasterScale& scale, double
     rows.set(std::min(raster.height - 1, raster.height / 2),
              std::min(raster.width - 1, raster.width / 2));
     raster.cells = 1;
+  }
+  if (scale.coverage == Coverage::center) {
+    crop(rows, raster.offset);
+    raster.width = rows.length;
+    raster.height = rows.lanes;
   }
   raster.columns = make_silhouette(transposed(rows));
   raster.rows = make_silhouette(std::move(rows));

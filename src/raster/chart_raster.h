@@ -38,8 +38,12 @@ struct Silhouette {
   BitLanes bits;                    ///< a lane per column (row)
   std::vector<std::int16_t> first;  ///< horizon: first covered cell of a lane; > last if empty
   std::vector<std::int16_t> last;   ///< horizon: last covered cell of a lane
-  std::int32_t filled_lanes = 0;    ///< lanes with a covered cell
-  std::int32_t sum_first = 0;       ///< over filled lanes
+  struct LaneRun {
+    std::int32_t begin, end;
+  };
+  std::vector<LaneRun> filled;    ///< maximal runs of lanes with a covered cell; one, usually
+  std::int32_t filled_lanes = 0;  ///< lanes with a covered cell
+  std::int32_t sum_first = 0;     ///< over filled lanes
   std::int32_t sum_last = 0;
   std::int32_t hollow = 0;  ///< uncovered cells between the two horizons (Fig. 4, yellow)
 };

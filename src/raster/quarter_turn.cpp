@@ -15,9 +15,23 @@ std::uint64_t reversed_bits(std::uint64_t bits) {
   return __builtin_bswap64(bits);
 }
 
+/// A silhouette of the same size and sums, its lanes yet to be filled.
+Silhouette blank_like(const Silhouette& source) {
+  Silhouette result;
+  result.bits = BitLanes(source.bits.lanes, source.bits.length);
+  result.filled_lanes = source.filled_lanes;
+  result.sum_first = source.sum_first;
+  result.sum_last = source.sum_last;
+  result.hollow = source.hollow;
+  return result;
+}
+
 /// The same lanes, each read from its other end.
 Silhouette positions_reversed(const Silhouette& source) {
-  Silhouette result = source;
+  Silhouette result = blank_like(source);
+  result.filled = source.filled;
+  result.first = source.last;
+  result.last = source.first;
   const int words = source.bits.words, spare = words * kWordBits - source.bits.length;
   const auto top = static_cast<std::int16_t>(source.bits.length - 1);
   for (int lane = 0; lane < source.bits.lanes; ++lane) {
@@ -30,9 +44,9 @@ Silhouette positions_reversed(const Silhouette& source) {
       }
     }
     const auto i = static_cast<std::size_t>(lane);
-    if (source.first[i] > source.last[i]) continue;
-    result.first[i] = static_cast<std::int16_t>(top - source.last[i]);
-    result.last[i] = static_cast<std::int16_t>(top - source.first[i]);
+    const bool filled = source.first[i] <= source.last[i];
+    result.first[i] = static_cast<std::int16_t>(filled ? top - source.last[i] : 1);
+    result.last[i] = static_cast<std::int16_t>(filled ? top - source.first[i] : 0);
   }
   result.sum_first = source.filled_lanes * top - source.sum_last;
   result.sum_last = source.filled_lanes * top - source.sum_first;
@@ -41,13 +55,16 @@ Silhouette positions_reversed(const Silhouette& source) {
 
 /// The same lanes, the last one first.
 Silhouette lanes_reversed(const Silhouette& source) {
-  Silhouette result = source;
+  Silhouette result = blank_like(source);
   for (int lane = 0; lane < source.bits.lanes; ++lane) {
     const std::uint64_t* from = source.bits.lane(source.bits.lanes - 1 - lane);
     std::copy(from, from + source.bits.words, result.bits.lane(lane));
   }
-  std::reverse(result.first.begin(), result.first.end());
-  std::reverse(result.last.begin(), result.last.end());
+  result.first.assign(source.first.rbegin(), source.first.rend());
+  result.last.assign(source.last.rbegin(), source.last.rend());
+  for (auto run = source.filled.rbegin(); run != source.filled.rend(); ++run) {
+    result.filled.push_back({source.bits.lanes - run->end, source.bits.lanes - run->begin});
+  }
   return result;
 }
 

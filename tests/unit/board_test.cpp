@@ -138,6 +138,8 @@ TEST(Slide, BestRestIsTheFirstOfLeastGap) {
       columns.sum_first -= columns.first[lane];
       columns.sum_last -= columns.last[lane];
       --columns.filled_lanes;
+      const auto middle = static_cast<std::int32_t>(lane);
+      columns.filled = {{0, middle}, {middle + 1, chart.width}};
       columns.first[lane] = 1;
       columns.last[lane] = 0;
     }

@@ -66,6 +66,18 @@ TEST_P(EveryMethod, SameBitsForAnyNumberOfThreads) {
   }
 }
 
+TEST_P(EveryMethod, CentreCoverageIsNoLooser) {
+  // Thin charts have rows and columns without a cell centre; they must not be in the way.
+  const std::vector<Chart> charts = test::mixed_charts(9, 14);
+  PackOptions options = options_for(GetParam().method, GetParam().wrap);
+  options.padding = 0;
+  const auto safe = pack(charts, options);
+  options.coverage = Coverage::center;
+  const auto loose = pack(charts, options);
+  ASSERT_TRUE(safe && loose);
+  EXPECT_GT(loose->efficiency, 0.97 * safe->efficiency);
+}
+
 TEST_P(EveryMethod, OneChartAndManyTiny) {
   PackOptions options = options_for(GetParam().method, GetParam().wrap);
   const std::vector<Chart> one{test::rectangle(3, 2)};

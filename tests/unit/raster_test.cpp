@@ -101,6 +101,17 @@ void check_horizons(const Silhouette& view) {
     sum_first += first;
     sum_last += last;
   }
+  std::int32_t in_runs = 0, previous_end = -1;
+  for (const Silhouette::LaneRun run : view.filled) {
+    EXPECT_GT(run.begin, previous_end);
+    previous_end = run.end;
+    in_runs += run.end - run.begin;
+    for (std::int32_t lane = run.begin; lane < run.end; ++lane) {
+      EXPECT_LE(view.first[static_cast<std::size_t>(lane)],
+                view.last[static_cast<std::size_t>(lane)]);
+    }
+  }
+  EXPECT_EQ(in_runs, filled);
   EXPECT_EQ(view.hollow, hollow);
   EXPECT_EQ(view.filled_lanes, filled);
   EXPECT_EQ(view.sum_first, sum_first);
@@ -148,7 +159,7 @@ void compare_with_oracle(const Chart& chart, const RasterScale& scale, const Cha
       if (within && expected >= 0) {
         ASSERT_EQ(got, expected == 1) << "cell " << x << "," << y;
       }
-      if (!within && scale.growth > 0) {
+      if (!within && (scale.growth > 0 || scale.coverage == Coverage::center) && raster.cells > 1) {
         ASSERT_NE(expected, 1) << "cell " << x << "," << y;
       }
     }

@@ -1,0 +1,98 @@
+"""Atlases packed by the command, composed with captions."""
+import json
+import re
+import subprocess
+import tempfile
+
+from figures.svg import FONT, escaped
+
+GROUND, LIGHT, DIM = "#ffffff", "#1f2430", "#555c68"
+
+
+def packed(command, root, sample, *options):
+    """The picture of a packing as SVG text, and its report."""
+    with tempfile.TemporaryDirectory() as folder:
+        ending = sample.rsplit(".", 1)[1]
+        run = [str(command), "pack", str(root / "samples" / sample), "-o", f"{folder}/out.{ending}",
+               "--image", f"{folder}/out.svg", "--json", f"{folder}/out.json", "--quiet", *options]
+        subprocess.run(run, check=True)
+        with open(f"{folder}/out.svg", encoding="utf-8") as svg:
+            with open(f"{folder}/out.json", encoding="utf-8") as report:
+                return svg.read(), json.load(report)
+
+
+def panel(svg, name, x, y, size, numbers):
+    """An SVG picture inside another one: its names made unique, its numbers kept or not."""
+    if not numbers:
+        svg = re.sub(r"<text .*?</text>\n?", "", svg)
+    svg = re.sub(r'id="', f'id="{name}-', svg)
+    svg = re.sub(r'href="#', f'href="#{name}-', svg)
+    svg = re.sub(r"url\(#", f"url(#{name}-", svg)
+    return re.sub(r'^<svg ([^>]*?)width="[^"]*" height="[^"]*"',
+                  rf'<svg \1x="{x}" y="{y}" width="{size}" height="{size}"', svg)
+
+
+def words(x, y, text, size, colour=LIGHT, weight="normal"):
+    return (f'<text x="{x}" y="{y}" font-size="{size}" fill="{colour}" font-weight="{weight}">'
+            f"{escaped(text)}</text>")
+
+
+def sheet(width, height, parts):
+    return (f'<svg xmlns="http://www.w3.org/2000/svg" width="{width}" height="{height}" '
+            f'viewBox="0 0 {width} {height}" {FONT}>\n'
+            f'<rect width="100%" height="100%" rx="8" fill="{GROUND}"/>\n' + "\n".join(parts)
+            + "\n</svg>\n")
+
+
+def percent(report):
+    return f"{100 * report['efficiency']:.1f} %"
+
+
+def demo(command, root):
+    options = ("coral.glb", "--method", "modulo")
+    one, _ = packed(command, root, *options)
+    tiled, _ = packed(command, root, *options, "--image-tiles")
+    size, y = 760, 64
+    return sheet(1600, 840, [
+        words(24, 42, "The atlas; hatched parts have crossed its border", 26, weight="bold"),
+        words(816, 42, "What a repeating sampler sees: whole charts", 26, weight="bold"),
+        panel(one, "one", 24, y, size, numbers=False),
+        panel(tiled, "tiled", 816, y, size, numbers=False)])
+
+
+METHODS = (("lprm02", "Lévy et al. 2002"), ("swg03", "Sander et al. 2003"),
+           ("zsgs04", "Zhou et al. 2004"), ("modulo", "Nöll & Stricker 2011"))
+
+
+def four_methods(command, root):
+    sample, parts = "coral.glb", []
+    for i, (method, source) in enumerate(METHODS):
+        svg, report = packed(command, root, sample, "--method", method)
+        x = 20 + 396 * i
+        parts += [words(x, 40, f"{method}: {percent(report)}", 26, weight="bold"),
+                  words(x, 70, source, 21, DIM),
+                  panel(svg, method, x, 88, 372, numbers=False)]
+    parts.append(words(20, 498, f"wrapatlas pack samples/{sample} -o out.glb --method …   "
+                       f"(all else by default: {report['width']} × {report['height']} texels, "
+                       f"padding {report['padding']:g})", 20, DIM))
+    return sheet(1600, 518, parts)
+
+
+def of_method(method, sample):
+    def draw(command, root):
+        svg, report = packed(command, root, sample, "--method", method)
+        return sheet(800, 836, [
+            words(20, 36, f"pack samples/{sample} --method {method}: {percent(report)}", 24),
+            panel(svg, method, 20, 56, 760, numbers=False)])
+    return draw
+
+
+# Name of the picture: what draws it, and its width in pixels.
+PICTURES = {
+    "demo": (demo, 1500),
+    "four-methods": (four_methods, 1600),
+    "modulo": (of_method("modulo", "machine.obj"), 600),
+    "lprm02": (of_method("lprm02", "machine.obj"), 600),
+    "swg03": (of_method("swg03", "machine.obj"), 600),
+    "zsgs04": (of_method("zsgs04", "machine.obj"), 600),
+}

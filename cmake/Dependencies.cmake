@@ -4,9 +4,8 @@
 #   fmt             core   numbers to text and error lines, as std::format is not in g++ 12   [MIT]
 #   nlohmann-json   io     glTF's JSON, with unknown members kept in their order, and --json  [MIT]
 #   libspng         io     PNG out                                                          [BSD-2]
-#   CLI11           cli    command line                                                     [BSD-3]
+#   CLI11           cli    command line, that of bench too                                  [BSD-3]
 #   GoogleTest      tests                                                                   [BSD-3]
-#   GoogleBenchmark bench                                                              [Apache-2.0]
 
 # A project that adds this one by add_subdirectory links our static libraries, so it must see the
 # targets that they link to; one that has such a target already keeps its own.
@@ -26,12 +25,9 @@ if(NOT TARGET PkgConfig::WRAPATLAS_SPNG)
   pkg_check_modules(WRAPATLAS_SPNG REQUIRED IMPORTED_TARGET GLOBAL spng)
 endif()
 
-if(WRAPATLAS_CLI)
+if(WRAPATLAS_CLI OR WRAPATLAS_BENCH)
   wrapatlas_find(CLI11::CLI11 CLI11)
 endif()
 if(WRAPATLAS_TESTS)
   wrapatlas_find(GTest::gtest GTest)
-endif()
-if(WRAPATLAS_BENCH)
-  wrapatlas_find(benchmark::benchmark benchmark)
 endif()

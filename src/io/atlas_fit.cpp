@@ -63,17 +63,17 @@ Status check_fit(const Mesh& mesh, const AtlasMesh& atlas) {
   for (std::size_t face = 0; face < faces; ++face) {
     const std::uint32_t source = atlas.face_source[face];
     const bool goes_on = expected > 0 && source == expected - 1;
-    const std::string where = fmt::format("atlas face {}", face);
+    const auto where = [face] { return fmt::format("atlas face {}", face); };
     if (source >= mesh.face_count() || (source != expected && !goes_on)) {
-      return misfit(where, "source faces are missing or out of order");
+      return misfit(where(), "source faces are missing or out of order");
     }
     if (!goes_on) ++expected;
     const std::uint32_t begin = atlas.face_begin[face], end = atlas.face_begin[face + 1];
     if (end > corners || end < begin + std::uint64_t{3}) {
-      return misfit(where, "it has fewer than three corners");
+      return misfit(where(), "it has fewer than three corners");
     }
     if (!atlas.is_cut() && (goes_on || end - begin != mesh.face_size(source))) {
-      return misfit(where, "it is not the source face, and the atlas is not cut");
+      return misfit(where(), "it is not the source face, and the atlas is not cut");
     }
     for (std::uint32_t c = begin; c < end; ++c) {
       const std::uint32_t corner = atlas.corner_source[c], cut = atlas.corner_cut[c];
@@ -85,7 +85,7 @@ Status check_fit(const Mesh& mesh, const AtlasMesh& atlas) {
               : corner >= mesh.face_begin[source] && corner < mesh.face_begin[source + 1];
       const bool kept = atlas.is_cut() || corner - mesh.face_begin[source] == c - begin;
       if (!texcoord_fits || !corner_fits || !kept) {
-        return misfit(where, "a corner is not one of its source face");
+        return misfit(where(), "a corner is not one of its source face");
       }
     }
   }

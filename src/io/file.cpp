@@ -87,6 +87,11 @@ Result<std::string> read_file(const std::filesystem::path& path) {
 }
 
 Status write_file(const std::filesystem::path& path, std::string_view bytes) {
+  return write_file(path, [bytes](const PutBytes& put) { return put(bytes); });
+}
+
+Status write_file(const std::filesystem::path& path,
+                  const std::function<Status(const PutBytes&)>& produce) {
   std::error_code ignored;
   const auto kind = std::filesystem::status(path, ignored).type();
   const bool in_place =
@@ -98,7 +103,8 @@ Status write_file(const std::filesystem::path& path, std::string_view bytes) {
     return system_error(ErrorKind::output, path, "cannot write",
                         "check that the folder exists and is writable");
   }
-  Status written = write_all(descriptor, bytes, path);
+  Status written = produce(
+      [descriptor, &path](std::string_view bytes) { return write_all(descriptor, bytes, path); });
   if (in_place) {
     ::close(descriptor);
     return written;

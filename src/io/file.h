@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <string_view>
 
@@ -16,5 +17,13 @@ Result<std::string> read_file(const std::filesystem::path& path);
 /// On any failure (no permission, full disk) the temporary file is removed and `path` is as it
 /// was. A path that exists and is no regular file (/dev/stdout, a pipe) is written to directly.
 Status write_file(const std::filesystem::path& path, std::string_view bytes);
+
+/// Takes the next piece of a file.
+using PutBytes = std::function<Status(std::string_view)>;
+
+/// The same for a file that is made piece by piece: `produce` hands them to its argument and
+/// returns the first error it gets from there, or one of its own.
+Status write_file(const std::filesystem::path& path,
+                  const std::function<Status(const PutBytes&)>& produce);
 
 }  // namespace wrapatlas

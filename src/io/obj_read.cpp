@@ -17,7 +17,8 @@ struct ObjSource final : Model::Source {
   explicit ObjSource(std::string file) : bytes(std::move(file)) {}
   Status save(const std::filesystem::path& path, const Mesh& mesh,
               const AtlasMesh& atlas) const override {
-    return write_file(path, rewrite_obj(bytes, mesh, atlas));
+    return write_file(path,
+                      [&](const PutBytes& put) { return rewrite_obj(bytes, mesh, atlas, put); });
   }
   std::string bytes;
 };

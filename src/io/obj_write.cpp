@@ -18,16 +18,19 @@ int words_before_indices(ObjKeyword keyword) {
   return keyword == ObjKeyword::surf ? 4 : 0;
 }
 
+/// Bytes of this number are worth a call of PutBytes.
+constexpr std::size_t kPiece = std::size_t{1} << 18U;
+
 class ObjWriter {
  public:
-  ObjWriter(std::string_view bytes, const Mesh& mesh, const AtlasMesh& atlas)
-      : bytes_(bytes), mesh_(mesh), atlas_(atlas), plan_(bytes, mesh, atlas) {}
+  ObjWriter(std::string_view bytes, const Mesh& mesh, const AtlasMesh& atlas, const PutBytes& put)
+      : bytes_(bytes), mesh_(mesh), atlas_(atlas), put_(put), plan_(bytes, mesh, atlas) {}
 
-  std::string write() {
-    out_.reserve(bytes_.size() + bytes_.size() / 4 + (std::size_t{1} << 12U));
+  Status write() {
     copied_ = bytes_.data();
     ObjLines lines(bytes_);
-    for (ObjLine line; lines.next(line);) {
+    for (ObjLine line; status_ && lines.next(line);) {
+      if (out_.size() >= kPiece) put_out();
       if (line_end_.empty()) line_end_ = line.ending;
       ObjWords words(line.text);
       const ObjKeyword keyword = obj_keyword(words.next());
@@ -54,13 +57,24 @@ class ObjWriter {
       }
     }
     copy_until(bytes_.data() + bytes_.size());
-    return std::move(out_);
+    put_out();
+    return status_;
   }
 
  private:
+  void put_out() {
+    if (status_) status_ = put_(out_);
+    out_.clear();
+  }
   void copy_until(const char* end) {
-    out_.append(copied_, end);
+    const std::string_view kept(copied_, static_cast<std::size_t>(end - copied_));
     copied_ = end;
+    if (kept.size() < kPiece) {
+      out_ += kept;
+      return;
+    }
+    put_out();
+    if (status_) status_ = put_(kept);
   }
   void replace(std::string_view old, std::string_view text) {
     copy_until(old.data());
@@ -258,9 +272,11 @@ class ObjWriter {
   std::string_view bytes_;
   const Mesh& mesh_;
   const AtlasMesh& atlas_;
+  const PutBytes& put_;
   ObjPlan plan_;
-  std::string out_, number_;
-  const char* copied_ = nullptr;  // all bytes before this one are in out_, or replaced
+  Status status_ = Done{};
+  std::string out_, number_;      // out_: what is still to be put
+  const char* copied_ = nullptr;  // all bytes before this one are put, in out_, or replaced
   std::string_view line_end_;
   std::vector<ObjCorner> corners_;  // of the face line at hand
   std::uint32_t face_ = 0, atlas_face_ = 0;
@@ -270,8 +286,9 @@ class ObjWriter {
 
 }  // namespace
 
-std::string rewrite_obj(std::string_view bytes, const Mesh& mesh, const AtlasMesh& atlas) {
-  return ObjWriter(bytes, mesh, atlas).write();
+Status rewrite_obj(std::string_view bytes, const Mesh& mesh, const AtlasMesh& atlas,
+                   const PutBytes& put) {
+  return ObjWriter(bytes, mesh, atlas, put).write();
 }
 
 }  // namespace wrapatlas

@@ -41,6 +41,23 @@ TEST_F(FileTest, MissingFolderLeavesNothing) {
   EXPECT_TRUE(fs::is_empty(folder_));
 }
 
+TEST_F(FileTest, PiecesBecomeOneFileAndAFailureLeavesTheOldOne) {
+  ASSERT_TRUE(write_file(folder_ / "x", [](const PutBytes& put) -> Status {
+    if (Status first = put("ab"); !first) return first;
+    return put("c");
+  }));
+  const Status failed = write_file(folder_ / "x", [](const PutBytes& put) -> Status {
+    if (Status first = put("new"); !first) return first;
+    return Error{ErrorKind::check, "", "changed its mind", ""};
+  });
+  ASSERT_FALSE(failed);
+  EXPECT_EQ(failed.error().what, "changed its mind");
+  const auto read = read_file(folder_ / "x");
+  ASSERT_TRUE(read);
+  EXPECT_EQ(*read, "abc");
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), 1);
+}
+
 TEST_F(FileTest, FullDiskIsReported) {
   const Status status = write_file("/dev/full", "abc");
   ASSERT_FALSE(status);

@@ -16,6 +16,15 @@ Model obj(const std::string& text) {
   return model ? *std::move(model) : Model{};
 }
 
+std::string rewritten(const std::string& text, const Mesh& mesh, const AtlasMesh& atlas) {
+  std::string out;
+  EXPECT_TRUE(rewrite_obj(text, mesh, atlas, [&](std::string_view piece) -> Status {
+    out += piece;
+    return Done{};
+  }));
+  return out;
+}
+
 std::string obj_error(const std::string& text) { return load_error(text, FileFormat::obj); }
 
 // Two quads with a seam between them: vertices are shared, UVs are not.
@@ -252,10 +261,47 @@ TEST(Obj, RandomRoundTrips) {
       texcoord = static_cast<std::uint32_t>(pick(static_cast<int>(torn.texcoords.size())));
     }
     for (const AtlasMesh& atlas : {torn, halved_atlas(model->mesh, 0.3)}) {
-      const Model again = obj(rewrite_obj(text, model->mesh, atlas));
+      const Model again = obj(rewritten(text, model->mesh, atlas));
       expect_same_corners(again.mesh, apply_atlas(model->mesh, atlas));
     }
   }
+}
+
+// Long runs that stay and long runs that change leave the writer in pieces.
+std::string long_obj() {
+  std::string text = std::string(400000, '#') + "\nv 0 0 0\nv 1 0 0\nv 0 1 0\n";
+  for (int i = 0; i < 60000; ++i) text += "vt 0.25 0.5\nvt 0.5 0.5\nvt 0.25 0.75\n";
+  for (int i = 0; i < 60000; ++i)
+    text += fmt::format("f 1/{} 2/{} 3/{}\n", 3 * i + 1, 3 * i + 2, 3 * i + 3);
+  return text + std::string(400000, '#');
+}
+
+TEST(Obj, LongFilesAreHandedOnInPieces) {
+  const std::string text = long_obj();
+  const Model model = obj(text);
+  AtlasMesh atlas = torn_atlas(model.mesh);
+  atlas.texcoords = model.mesh.texcoords;
+  atlas.corner_texcoord = model.mesh.corner_texcoord;
+  for (Vec2& uv : atlas.texcoords) uv.x += 0.5;
+  std::string expected;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find('\n', at), text.size() - 1) + 1;
+    std::string line = text.substr(at, end - at);
+    if (line.rfind("vt 0.25", 0) == 0) line.replace(3, 4, "0.75");
+    if (line.rfind("vt 0.5", 0) == 0) line.replace(3, 3, "1");
+    expected += line;
+    at = end;
+  }
+  EXPECT_TRUE(rewritten(text, model.mesh, atlas) == expected);
+
+  int calls = 0;
+  const Status failed = rewrite_obj(text, model.mesh, atlas, [&](std::string_view) -> Status {
+    if (++calls < 3) return Done{};
+    return Error{ErrorKind::output, "", "full", ""};
+  });
+  ASSERT_FALSE(failed);
+  EXPECT_EQ(failed.error().what, "full");
+  EXPECT_EQ(calls, 3);
 }
 
 }  // namespace

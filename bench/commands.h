@@ -1,0 +1,31 @@
+// The benchmarks; each prints its options and its tables, and returns the exit status.
+#pragma once
+
+#include <string>
+
+namespace wrapatlas::bench {
+
+struct ChartOptions {
+  std::string folder;
+  int stride = 1;
+  int runs = 5;
+};
+
+struct PackBenchOptions {
+  int aspect_runs = 1;
+  int aspect_threads = 2;
+};
+
+struct IoBenchOptions {
+  int triangles = 1000000;
+  int runs = 5;
+  std::string keep;
+};
+
+int bench_pack(const ChartOptions& charts, const PackBenchOptions& options);
+int bench_raster(const ChartOptions& charts);
+int bench_slide(const ChartOptions& charts);
+int bench_io(const IoBenchOptions& options);
+int bench_mesh();
+
+}  // namespace wrapatlas::bench

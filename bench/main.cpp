@@ -1,0 +1,64 @@
+// wrapatlas_bench: programs that time one stage each and print it beside something known.
+#include <CLI/CLI.hpp>
+
+#include "chart_files.h"
+#include "commands.h"
+#include "report.h"
+
+namespace {
+
+using namespace wrapatlas::bench;
+
+void add_chart_options(CLI::App& app, ChartOptions& options) {
+  app.add_option("folder", options.folder, "Models with UVs: a folder, or one file")
+      ->capture_default_str();
+  app.add_option("--stride", options.stride, "Take every N-th file alone")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  app.add_option("--runs", options.runs, "Runs, of which the median counts")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("Benchmarks of wrapatlas; ratios say how often something known took the time.");
+  app.require_subcommand(1);
+  ChartOptions charts;
+  charts.folder = default_chart_folder().string();
+  PackBenchOptions pack;
+  IoBenchOptions io;
+
+  CLI::App& pack_app = *app.add_subcommand("pack", "The four packers, beside the paper's times");
+  add_chart_options(pack_app, charts);
+  pack_app.add_option("--aspect-runs", pack.aspect_runs, "Runs of the 31 aspect ratios; 0: none")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  pack_app.add_option("--aspect-threads", pack.aspect_threads, "Threads for the 31 aspect ratios")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  CLI::App& raster_app =
+      *app.add_subcommand("raster", "Rasterisation, beside a test of every cell of every triangle");
+  add_chart_options(raster_app, charts);
+  CLI::App& slide_app = *app.add_subcommand("slide", "Sliding charts, beside the plain loop");
+  add_chart_options(slide_app, charts);
+  CLI::App& io_app =
+      *app.add_subcommand("io", "Reading and writing, beside reading the bytes and the numbers");
+  io_app.add_option("--triangles", io.triangles, "Size of the files, about")
+      ->check(CLI::Range(2, 20000000))
+      ->capture_default_str();
+  io_app.add_option("--runs", io.runs, "Runs, of which the median counts")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  io_app.add_option("--keep", io.keep, "Only write the two files, into this folder, and keep them");
+  CLI::App& mesh_app = *app.add_subcommand("mesh", "Welding and triangulating");
+  CLI11_PARSE(app, argc, argv);
+
+  print_machine();
+  if (pack_app.parsed()) return bench_pack(charts, pack);
+  if (raster_app.parsed()) return bench_raster(charts);
+  if (slide_app.parsed()) return bench_slide(charts);
+  if (mesh_app.parsed()) return bench_mesh();
+  return io_app.parsed() ? bench_io(io) : 2;
+}

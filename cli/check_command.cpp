@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <optional>
 
@@ -16,7 +17,7 @@ struct CheckArguments {
   std::string input, reference, resolution = "1024", wrap = "none", stacked = "separate", json;
   CheckOptions options;
   int texcoord = 0;
-  bool quiet = false;
+  bool quiet = false, verbose = false;
 };
 
 constexpr std::array<const char*, 9> kViolationNames{"overlap",     "gap",      "self_overlap",
@@ -53,6 +54,20 @@ Json to_json(const CheckArguments& arguments, const CheckReport& report, double 
           {"peak_memory_mb", peak_memory_mb()}};
 }
 
+/// Defects of the input, a few of them unless all are asked for.
+void print_notes(const CheckArguments& arguments, const CheckReport& report) {
+  constexpr std::size_t kFew = 3;
+  const std::size_t shown =
+      arguments.verbose ? report.remarks.size() : std::min(kFew, report.remarks.size());
+  for (std::size_t i = 0; i < shown; ++i) {
+    fmt::print(stderr, "{}: note: {}\n", arguments.input, report.remarks[i]);
+  }
+  if (shown < report.remarks.size()) {
+    fmt::print(stderr, "{}: note: and {} more like these (--verbose shows all)\n", arguments.input,
+               report.remarks.size() - shown);
+  }
+}
+
 int run(CheckArguments& arguments) {
   const double start = seconds_now();
   const auto size = parse_resolution(arguments.resolution);
@@ -84,9 +99,7 @@ int run(CheckArguments& arguments) {
     if (!ok) return report_error(ok.error());
   }
   if (!arguments.quiet) {
-    for (const std::string& remark : report->remarks) {
-      fmt::print(stderr, "{}: note: {}\n", arguments.input, remark);
-    }
+    print_notes(arguments, *report);
     for (const Finding& finding : report->findings) {
       fmt::print(stderr, "{}: {}\n", arguments.input, finding.text);
     }
@@ -139,6 +152,7 @@ Command make_check_command(CLI::App& parser) {
       ->capture_default_str();
   app.add_option("--json", a.json, "Write a report as JSON to a file, or - for standard output");
   app.add_flag("--quiet", a.quiet, "Only the exit status");
+  app.add_flag("--verbose", a.verbose, "All notes on defects of the input");
   app.footer(
       "Exit status 0: every promise holds; 1: some do not.\n"
       "Example:\n"

@@ -238,9 +238,10 @@ int run(PackArguments& arguments) {
   }
   outcome.pack = seconds_now() - pack_start;
 
-  const AtlasMesh atlas = arguments.export_mode == "cut"
-                              ? export_cut(model->mesh, *charts, *packing)
-                              : export_continuous(model->mesh, *charts, *packing);
+  AtlasMesh atlas = arguments.export_mode == "cut"
+                        ? export_cut(model->mesh, *charts, *packing)
+                        : export_continuous(model->mesh, *charts, *packing);
+  round_texcoords_to_float(atlas);
   if (const auto error = check_result(arguments, *model, atlas, *packing, outcome)) {
     // The paper's coverage is known to be unsafe; who asks for it gets it, with a warning.
     if (error->kind != ErrorKind::check || arguments.options.coverage != Coverage::center) {

@@ -46,4 +46,8 @@ AtlasMesh export_continuous(const Mesh& mesh, const ChartSet& charts, const Pack
 /// inserted in the other faces of that edge, so that no crack opens in the surface.
 AtlasMesh export_cut(const Mesh& mesh, const ChartSet& charts, const Packing& packing);
 
+/// Rounds all UVs to the nearest 32-bit float, which is what files and graphics cards hold. What is
+/// checked after this is what a renderer will see.
+void round_texcoords_to_float(AtlasMesh& atlas);
+
 }  // namespace wrapatlas

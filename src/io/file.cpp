@@ -4,8 +4,12 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <atomic>
 #include <cerrno>
 #include <cstring>
+#include <exception>
+#include <string>
 #include <utility>
 
 namespace wrapatlas {
@@ -29,6 +33,36 @@ Status write_all(int descriptor, std::string_view bytes, const std::filesystem::
   return Done{};
 }
 
+/// Opens a new file beside `path`, with the permissions any new file gets.
+int create_beside(const std::filesystem::path& path, std::string& name) {
+  static std::atomic<unsigned> count{0};
+  for (;;) {
+    name = path.string() + ".tmp" + std::to_string(::getpid()) + "-" + std::to_string(count++);
+    const int descriptor = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (descriptor >= 0 || errno != EEXIST) return descriptor;
+  }
+}
+
+/// Reads to the end of the file, into room made for `expected` bytes at first.
+Status read_all(int descriptor, std::size_t expected, const std::filesystem::path& path,
+                std::string& bytes) {
+  constexpr std::size_t kStep = 1U << 16U;
+  std::size_t used = 0;
+  bytes.resize(expected + 1);  // the extra byte lets the end show without growing
+  for (;;) {
+    if (used == bytes.size()) bytes.resize(used + std::max(used, kStep));
+    const ssize_t count = ::read(descriptor, bytes.data() + used, bytes.size() - used);
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) {
+      return system_error(ErrorKind::input, path, "cannot read", "check that it is a file");
+    }
+    if (count == 0) break;
+    used += static_cast<std::size_t>(count);
+  }
+  bytes.resize(used);
+  return Done{};
+}
+
 }  // namespace
 
 Result<std::string> read_file(const std::filesystem::path& path) {
@@ -38,27 +72,17 @@ Result<std::string> read_file(const std::filesystem::path& path) {
                         "check the path and its permissions");
   }
   struct stat info {};
+  const bool sized = ::fstat(descriptor, &info) == 0 && S_ISREG(info.st_mode);
   std::string bytes;
-  if (::fstat(descriptor, &info) == 0 && S_ISREG(info.st_mode)) {
-    bytes.reserve(static_cast<std::size_t>(info.st_size));
-  }
-  std::size_t used = 0;
-  for (;;) {
-    if (used == bytes.size()) {
-      bytes.resize(bytes.capacity() > used ? bytes.capacity() : used + (1U << 16U));
-    }
-    const ssize_t count = ::read(descriptor, bytes.data() + used, bytes.size() - used);
-    if (count < 0) {
-      if (errno == EINTR) continue;
-      Error error = system_error(ErrorKind::input, path, "cannot read", "check that it is a file");
-      ::close(descriptor);
-      return error;
-    }
-    if (count == 0) break;
-    used += static_cast<std::size_t>(count);
+  Status read = Done{};
+  try {
+    read = read_all(descriptor, sized ? static_cast<std::size_t>(info.st_size) : 0, path, bytes);
+  } catch (const std::exception&) {  // bad_alloc or length_error
+    read = Error{ErrorKind::input, path.string(), "too large for this machine's memory",
+                 "split the file, or use a machine with more memory"};
   }
   ::close(descriptor);
-  bytes.resize(used);
+  if (!read) return read.error();
   return bytes;
 }
 
@@ -68,13 +92,8 @@ Status write_file(const std::filesystem::path& path, std::string_view bytes) {
   const bool in_place =
       kind != std::filesystem::file_type::not_found && kind != std::filesystem::file_type::regular;
   std::string temporary = path.string();
-  int descriptor = -1;
-  if (in_place) {
-    descriptor = ::open(temporary.c_str(), O_WRONLY | O_CLOEXEC);
-  } else {
-    temporary += ".XXXXXX";
-    descriptor = ::mkostemp(temporary.data(), O_CLOEXEC);
-  }
+  const int descriptor =
+      in_place ? ::open(path.c_str(), O_WRONLY | O_CLOEXEC) : create_beside(path, temporary);
   if (descriptor < 0) {
     return system_error(ErrorKind::output, path, "cannot write",
                         "check that the folder exists and is writable");
@@ -84,9 +103,7 @@ Status write_file(const std::filesystem::path& path, std::string_view bytes) {
     ::close(descriptor);
     return written;
   }
-  const mode_t mask = ::umask(0);
-  ::umask(mask);
-  const bool kept = written && ::fchmod(descriptor, 0666 & ~mask) == 0 && ::fsync(descriptor) == 0;
+  const bool kept = written && ::fsync(descriptor) == 0;
   const int keep_errno = errno;
   const bool closed = ::close(descriptor) == 0;
   if (kept && closed && ::rename(temporary.c_str(), path.c_str()) == 0) return Done{};

@@ -110,9 +110,9 @@ Status save_model(const Model& model, const AtlasMesh& atlas, const std::filesys
   const Result<FileFormat> format = format_from_path(path);
   if (!format) return format.error();
   if (Status fits = check_fit(model.mesh, atlas); !fits) return fits;
-  if (*format == model.format && model.source) {
-    return model.source->save(path, model.mesh, atlas);
-  }
+  const auto is_gltf = [](FileFormat f) { return f == FileFormat::gltf || f == FileFormat::glb; };
+  const bool same_kind = *format == model.format || (is_gltf(*format) && is_gltf(model.format));
+  if (same_kind && model.source) return model.source->save(path, model.mesh, atlas);
   if (counts_v_downward(*format) != model.v_points_down) {
     return write_new(*format, path, model.mesh, turn_upside_down(atlas));
   }

@@ -54,6 +54,16 @@ bool parse_integer(std::string_view text, std::int64_t& value) {
 }
 
 void append_number(std::string& out, double value) { append_chars(out, value + 0.0); }
+
+void append_float(std::string& out, double value) {
+  const auto single = static_cast<float>(value);
+  if (static_cast<double>(single) == value) {
+    append_chars(out, single + 0.0F);
+  } else {
+    append_number(out, value);
+  }
+}
+
 void append_integer(std::string& out, std::int64_t value) { append_chars(out, value); }
 
 }  // namespace wrapatlas

@@ -33,6 +33,9 @@ bool parse_integer(std::string_view text, std::int64_t& value);
 
 /// Appends the shortest text that reads back as the same bits.
 void append_number(std::string& out, double value);
+/// The same; a value that a 32-bit float holds exactly gets the shortest text that reads back as
+/// that float.
+void append_float(std::string& out, double value);
 void append_integer(std::string& out, std::int64_t value);
 
 }  // namespace wrapatlas

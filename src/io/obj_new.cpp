@@ -18,9 +18,9 @@ Status write_new_obj(const std::filesystem::path& path, const Mesh& mesh, const 
   }
   for (const Vec2& uv : applied.texcoords) {
     out += "vt ";
-    append_number(out, uv.x);
+    append_float(out, uv.x);
     out += ' ';
-    append_number(out, uv.y);
+    append_float(out, uv.y);
     out += '\n';
   }
   for (std::size_t face = 0; face < applied.face_count(); ++face) {

@@ -79,9 +79,9 @@ class ObjWriter {
   }
 
   void append_uv(std::uint32_t texcoord) {
-    append_number(out_, atlas_.texcoords[texcoord].x);
+    append_float(out_, atlas_.texcoords[texcoord].x);
     out_ += ' ';
-    append_number(out_, atlas_.texcoords[texcoord].y);
+    append_float(out_, atlas_.texcoords[texcoord].y);
   }
 
   // The statements that refer to vertices besides faces: lines, points, free-form elements.

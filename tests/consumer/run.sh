@@ -29,6 +29,6 @@ g++ -std=c++20 "$consumer/main.cpp" -o "$work/consumer" $(pkg-config --cflags --
 LD_LIBRARY_PATH=$(pkg-config --variable=libdir wrapatlas) "$work/consumer"
 
 echo "== add_subdirectory"
-cmake -S "$consumer" -B "$work/sub" -G Ninja "$@" -DWRAPATLAS_SOURCE="$source" >/dev/null
+cmake -S "$consumer" -B "$work/sub" -G Ninja "$@" -DWRAPATLAS_SOURCE="$source" -DCMAKE_BUILD_TYPE=Debug >/dev/null
 cmake --build "$work/sub"
 "$work/sub/consumer"

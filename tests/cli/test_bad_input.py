@@ -10,7 +10,7 @@ import subprocess
 import unittest
 
 import support
-from support import COMMAND, QUICK, SAMPLES, obj, obj_lines, rectangle, square
+from support import COMMAND, quick, SAMPLES, obj, obj_lines, rectangle, square
 
 GOOD = obj([square(), square(2)])
 PLY_HEADER = ("ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
@@ -82,7 +82,7 @@ class BrokenFiles(support.CommandTest):
         self.refuse_file("a.obj", GOOD[: GOOD.index("f ")], "no faces")
 
     def test_cut_off_off(self):
-        self.refuse_file("a.off", STOFF[:20], "a.off:2", "cut short")
+        self.refuse_file("a.off", STOFF[:20], "a.off:3", "missing")
         self.refuse_file("a.off", STOFF[:38], "a.off")
         self.refuse_file("a.off", STOFF[:-4], "a.off:6", "vertex number")
 
@@ -102,8 +102,8 @@ class BrokenFiles(support.CommandTest):
     def test_cut_off_gltf(self):
         document, binary = gltf()
         self.refuse_gltf(document[: len(document) // 2], binary, "bad.gltf")
-        self.refuse_gltf(document, binary[:-1], "bad.bin")
-        self.refuse_gltf(document, b"", "bad.bin")
+        self.refuse_gltf(document, binary[:-1], "buffer 0: it has 71 bytes but says 72")
+        self.refuse_gltf(document, b"", "buffer 0")
         (self.folder / "bad.bin").unlink()
         self.refuse_file("bad.gltf", document, "bad.bin")
 
@@ -118,7 +118,7 @@ class BrokenFiles(support.CommandTest):
         for name, content in (("a.obj", GOOD), ("a.ply", PLY), ("a.off", STOFF)):
             for size in range(1, len(content), 5):
                 self.write(name, content[:size])
-                result = self.call("pack", name, "-o", "new.obj", *QUICK)
+                result = self.call("pack", name, "-o", "new.obj", *quick())
                 if result.returncode == 0:
                     self.path("new.obj").unlink()
                 else:
@@ -144,7 +144,7 @@ class BrokenFiles(support.CommandTest):
 
     def test_huge_coordinates_that_are_numbers(self):
         self.write("a.obj", obj([square(1e29, -1e29, 1e15), square(0, 0, 1e-29)]))
-        result = self.call("pack", "a.obj", "-o", "b.obj", *QUICK)
+        result = self.call("pack", "a.obj", "-o", "b.obj", *quick())
         if result.returncode != 0:
             self.assert_error(result, result.returncode, "a.obj")
             self.assertIn(result.returncode, (3, 4))
@@ -207,7 +207,7 @@ class Repairs(support.CommandTest):
     def pack_and_check(self, content, *options, stacked=False):
         keep = ("--stacked", "keep") if stacked else ()
         self.write("a.obj", content)
-        report = self.report("pack", "a.obj", "-o", "b.obj", *QUICK, *keep, *options)
+        report = self.pack_report("a.obj", "b.obj", *keep, *options)
         self.assertTrue(report["valid"])
         judged = self.check("b.obj", "a.obj", "--wrap", report["wrap"], *keep)
         self.assertTrue(judged["ok"])
@@ -217,7 +217,7 @@ class Repairs(support.CommandTest):
 
     def notes(self, content):
         self.write("a.obj", content)
-        return self.succeed("pack", "a.obj", "-o", "b.obj", *QUICK[:-1]).stderr
+        return self.succeed("pack", "a.obj", "-o", "b.obj", *quick()).stderr
 
     def test_triangles_of_no_area(self):
         good = [square(), square(2), [(4, 0), (5, 0), (4, 1)]]
@@ -277,14 +277,14 @@ class Repairs(support.CommandTest):
 
     def test_left_aside_faces_are_noted(self):
         self.write("a.off", STOFF.replace("3 1 0", "3 2 0") + "2 0 1\n")
-        result = self.succeed("pack", "a.off", "-o", "b.obj", *QUICK[:-1])
+        result = self.succeed("pack", "a.off", "-o", "b.obj", *quick())
         self.assertIn("a.off: note: left aside 1 faces", result.stderr)
 
 
 class TooLarge(support.CommandTest):
     def test_padding_beyond_the_page(self):
         self.write("a.obj", GOOD)
-        for padding in ("40", "64", "300"):
+        for padding in ("50", "64", "300"):
             for method in ("modulo", "swg03"):
                 with self.subTest(padding, method=method):
                     self.refuse_pack(4, ("a.obj", "padding"), "a.obj", "--method", method,
@@ -365,10 +365,10 @@ class Surroundings(support.CommandTest):
 
     def test_unknown_picture_ending(self):
         self.refuse(2, ("b.jpg", ".png"), "pack", "a.obj", "-o", "b.obj", "--image", "b.jpg",
-                    *QUICK)
+                    *quick())
 
     def test_output_where_none_can_be(self):
-        good = ("pack", "a.obj", *QUICK)
+        good = ("pack", "a.obj", *quick())
         for bad in ("none/b", "a.obj/b", "/proc/b"):
             with self.subTest(bad):
                 self.refuse(3, (bad, "cannot write"), *good, "-o", bad + ".obj")
@@ -383,14 +383,14 @@ class Surroundings(support.CommandTest):
             self.skipTest("root may write everywhere; test_output_where_none_can_be has the rest")
         (self.folder / "closed").mkdir(mode=0o500)
         self.refuse(3, ("closed/b.obj", "cannot write"), "pack", "a.obj", "-o", "closed/b.obj",
-                    *QUICK)
+                    *quick())
 
     def test_full_device(self):
         os.symlink("/dev/full", self.path("full.obj"))
         self.refuse(3, ("full.obj", "No space left", "disk space"), "pack", "a.obj", "-o",
-                    "full.obj", *QUICK)
+                    "full.obj", *quick())
         self.refuse(3, ("/dev/full", "No space left"), "pack", "a.obj", "-o", "b.obj", "--json",
-                    "/dev/full", *QUICK)
+                    "/dev/full", *quick())
         with open("/dev/full", "w") as full:
             result = subprocess.run([COMMAND, "info", "a.obj", "--json", "-"], cwd=self.folder,
                                     stdout=full, stderr=subprocess.PIPE, text=True)
@@ -407,7 +407,7 @@ class Surroundings(support.CommandTest):
             self.write("big.obj", text)
             self.pack("big.obj", "big.glb")
             before = self.contents()
-            result = self.call("pack", name, "-o", name, *QUICK, preexec_fn=limit,
+            result = self.call("pack", name, "-o", name, *quick(), preexec_fn=limit,
                                restore_signals=False)
             self.assert_error(result, 3, name, "disk space")
             self.assertEqual(self.contents(), before)
@@ -421,7 +421,7 @@ class Surroundings(support.CommandTest):
                   ' "$@"; status=$?; cat disk/*; ls -A disk; exit $status')
         result = subprocess.run(
             ["unshare", "--mount", "sh", "-c", script, "sh", disk, COMMAND, "pack", "big.obj", "-o",
-             "disk/b.obj", *QUICK], cwd=self.folder, capture_output=True, text=True) \
+             "disk/b.obj", *quick()], cwd=self.folder, capture_output=True, text=True) \
             if shutil.which("unshare") else None
         if result is None or "unshare" in result.stderr or result.returncode == 99:
             self.skipTest("mounting a small file system takes root")
@@ -490,7 +490,7 @@ class BadOptions(support.CommandTest):
                 (("input",), ("check",)),
                 (("--wrap",), ("check", "a.obj", "--wrap", "x")),
                 (("--padding",), ("check", "a.obj", "--padding", "-1")),
-                (("--padding",), ("check", "a.obj", "--padding", "nan")),
+                (("padding",), ("check", "a.obj", "--padding", "nan")),
                 (("--margin",), ("check", "a.obj", "--margin", "-1")),
                 (("--resolution",), ("check", "a.obj", "--resolution", "none")),
                 (("--tolerance",), ("check", "a.obj", "--tolerance", "-1")),

@@ -52,8 +52,8 @@ class Interrupt(support.CommandTest):
         self.assertIn("machine.obj: 83 charts", message)
         self.assertEqual(set(self.contents()), {"machine.obj", "b.obj", "b.json"})
         width, height = self.size_in("b.json")
-        self.assertTrue(self.check("b.obj", "machine.obj", "--wrap", "uv", "--resolution",
-                                   f"{width}x{height}")["ok"])
+        self.assertTrue(self.check("b.obj", "machine.obj", "--wrap", "uv",
+                                   resolution=f"{width}x{height}")["ok"])
 
     def size_in(self, name):
         report = json.loads(self.path(name).read_text())

@@ -10,7 +10,7 @@ import zlib
 
 import gltf_maker
 import support
-from support import PACKABLE, QUICK, obj, obj_lines, obj_uvs, rectangle, square
+from support import PACKABLE, quick, obj, obj_lines, obj_uvs, rectangle, square
 
 RUNS = [("modulo", wrap) for wrap in ("uv", "u", "v", "none")]
 RUNS += [(method, "none") for method in ("lprm02", "swg03", "zsgs04")]
@@ -56,7 +56,7 @@ class Promises(support.CommandTest):
                 self.sample(name)
                 out = "out." + name.split(".")[1]
                 options = ("--method", method, "--wrap", wrap)
-                report = self.report("pack", name, "-o", out, *QUICK, *options)
+                report = self.pack_report(name, out, *options)
                 self.assertEqual((report["method"], report["wrap"]), (method, wrap))
                 judged = self.check(out, name, "--wrap", wrap, "--margin",
                                     "0" if wrap == "uv" else "1")
@@ -126,7 +126,7 @@ class Promises(support.CommandTest):
     def test_stacked_charts_go_on_sharing_texels(self):
         bend = [(0, 0), (3, 0), (3, 1), (1, 1), (1, 3), (0, 3)]
         self.write("a.obj", obj([bend, bend, rectangle(5, 0, 2, 1), square(8)]))
-        report = self.report("pack", "a.obj", "-o", "kept.obj", *QUICK, "--stacked", "keep")
+        report = self.pack_report("a.obj", "kept.obj", "--stacked", "keep")
         self.assertEqual((report["charts"], report["stacked"]), (3, 2))
         first, second, *_ = obj_polygons(self.path("kept.obj"))
         self.assertEqual(first, second)
@@ -141,34 +141,34 @@ class Shapes(support.CommandTest):
     def test_two_sided_resolution(self):
         for name in PACKABLE:
             self.sample(name)
-            report = self.report("pack", name, "-o", "b.obj", *QUICK, "--resolution", "512x256")
+            report = self.pack_report(name, "b.obj", "--resolution", "512x256")
             self.assertEqual((report["width"], report["height"]), (512, 256))
-            judged = self.check("b.obj", name, "--resolution", "512x256", "--wrap", "uv")
+            judged = self.check("b.obj", name, "--wrap", "uv", resolution="512x256")
             self.assertTrue(judged["ok"])
 
     def test_aspect_ratio(self):
         self.sample("coral.glb")
-        report = self.report("pack", "coral.glb", "-o", "b.glb", *QUICK, "--aspect", "2:1")
+        report = self.pack_report("coral.glb", "b.glb", "--aspect", "2:1")
         self.assertEqual((report["width"], report["height"]), (362, 181))
-        self.assertTrue(self.check("b.glb", "coral.glb", "--resolution", "362x181", "--wrap",
-                                   "uv")["ok"])
+        self.assertTrue(self.check("b.glb", "coral.glb", "--wrap", "uv",
+                                   resolution="362x181")["ok"])
 
     def test_searched_aspect_ratio(self):
         """A long strip without rotations wants a long texture."""
         self.write("a.obj", obj([rectangle(0, 0, 8, 1)]))
-        report = self.report("pack", "a.obj", "-o", "b.obj", *QUICK, "--rotations", "1", "--aspect",
+        report = self.pack_report("a.obj", "b.obj", "--rotations", "1", "--aspect",
                              "search", "--wrap", "none")
         width, height = report["width"], report["height"]
         self.assertGreater(width, 4 * height)
         self.assertAlmostEqual(width * height / 256**2, 1, delta=0.15)
-        self.assertTrue(self.check("b.obj", "a.obj", "--resolution", f"{width}x{height}")["ok"])
+        self.assertTrue(self.check("b.obj", "a.obj", resolution=f"{width}x{height}")["ok"])
 
     def test_cut_export(self):
         for name in PACKABLE:
             with self.subTest(name):
                 self.sample(name)
                 out = "cut." + name.split(".")[1]
-                report = self.report("pack", name, "-o", out, *QUICK, "--export", "cut")
+                report = self.pack_report(name, out, "--export", "cut")
                 self.assertEqual((report["wrap"], report["export"]), ("uv", "cut"))
                 judged = self.check(out, name)
                 self.assertTrue(judged["ok"])
@@ -268,7 +268,7 @@ class Outputs(support.CommandTest):
 
     def test_report(self):
         self.sample("machine.obj")
-        report = self.report("pack", "machine.obj", "-o", "b.obj", *QUICK, "--seed", "7",
+        report = self.pack_report("machine.obj", "b.obj", "--seed", "7",
                              "--threads", "2", "--padding", "3")
         told = {key: report[key] for key in ("command", "input", "output", "method", "wrap",
                                               "export", "width", "height", "pages", "charts",
@@ -326,7 +326,7 @@ class Outputs(support.CommandTest):
     def test_streams(self):
         """Standard output has the JSON alone, standard error the rest, and --quiet stops that."""
         self.sample("coral.glb")
-        loud = self.succeed("pack", "coral.glb", "-o", "b.glb", *QUICK[:-1], "--json", "-")
+        loud = self.succeed("pack", "coral.glb", "-o", "b.glb", *quick("--json", "-"))
         json.loads(loud.stdout)
         self.assertRegex(loud.stderr, r"\Acoral.glb: 5 charts on 256 x 256 texels, [\d.]+ % in "
                                       r"use, [\d.]+ s -> b.glb\n\Z")
@@ -334,7 +334,7 @@ class Outputs(support.CommandTest):
         self.assertEqual((quiet.stdout, quiet.stderr), ("", ""))
         checked = self.succeed("check", "b.glb", "--wrap", "uv", "--quiet")
         self.assertEqual((checked.stdout, checked.stderr), ("", ""))
-        verbose = self.succeed("pack", "coral.glb", "-o", "b.glb", *QUICK[:-1], "--verbose")
+        verbose = self.succeed("pack", "coral.glb", "-o", "b.glb", *quick("--verbose"))
         self.assertIn("grid 64 x 64", verbose.stderr)
 
     def test_help(self):

@@ -10,7 +10,7 @@ import zlib
 
 import gltf_maker
 import support
-from support import PACKABLE, quick, obj, obj_lines, obj_uvs, rectangle, square
+from support import PACKABLE, obj, obj_lines, obj_uvs, quick, rectangle, square
 
 RUNS = [("modulo", wrap) for wrap in ("uv", "u", "v", "none")]
 RUNS += [(method, "none") for method in ("lprm02", "swg03", "zsgs04")]

@@ -1,4 +1,4 @@
-"""glTF files made in code, for tests: a cylinder wall and its two caps, with whatever rides on them."""
+"""glTF files made in code, for tests: a cylinder and its caps, with whatever rides on them."""
 
 import base64
 import json
@@ -76,7 +76,8 @@ class GltfMaker:
         text += b" " * (-len(text) % 4)
         binary = bytes(self.binary) + bytes(-len(self.binary) % 4)
         return (struct.pack("<4sIIII", b"glTF", 2, 28 + len(text) + len(binary), len(text),
-                            0x4E4F534A) + text + struct.pack("<II", len(binary), 0x004E4942) + binary)
+                            0x4E4F534A)
+                + text + struct.pack("<II", len(binary), 0x004E4942) + binary)
 
 
 class Can:
@@ -167,7 +168,8 @@ def skinned():
 
 def morphed():
     maker, can = GltfMaker(), Can()
-    targets = [{"POSITION": maker.positions([(0.1 * x, 0.0, shift * z) for x, _, z in can.positions]),
+    targets = [{"POSITION": maker.positions([(0.1 * x, 0.0, shift * z)
+                                             for x, _, z in can.positions]),
                 "NORMAL": maker.accessor([(0.0, 0.1, 0.0)] * len(can.positions))}
                for shift in (0.1, 0.3)]
     maker.node(mesh=maker.mesh(

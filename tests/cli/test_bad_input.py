@@ -42,7 +42,8 @@ def gltf(positions=((0, 0, 0), (1, 0, 0), (0, 1, 0)), uvs=((0, 0), (1, 0), (0, 1
              "min": [0, 0, 0], "max": [1, 1, 0]},
             {"bufferView": 1, "componentType": 5126, "count": len(uvs), "type": "VEC2"},
             {"bufferView": 2, "componentType": 5125, "count": len(indices), "type": "SCALAR"}],
-        "meshes": [{"primitives": [{"attributes": {"POSITION": 0, "TEXCOORD_0": 1}, "indices": 2}]}],
+        "meshes": [{"primitives": [
+            {"attributes": {"POSITION": 0, "TEXCOORD_0": 1}, "indices": 2}]}],
     }
     return json.dumps(document), b"".join(parts)
 

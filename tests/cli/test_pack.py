@@ -61,7 +61,7 @@ class Promises(support.CommandTest):
                 judged = self.check(out, name, "--wrap", wrap, "--margin",
                                     "0" if wrap == "uv" else "1")
                 self.assertEqual((judged["ok"], judged["charts"]), (True, report["charts"]))
-                self.assertAlmostEqual(judged["scale"], report["scale"], delta=1e-3 * judged["scale"])
+                self.assertAlmostEqual(judged["scale"] / report["scale"], 1, places=3)
                 self.assertGreaterEqual(judged["smallest_gap"], 2 - 1e-3)
 
     def test_check_fails_for_more_padding_than_was_packed(self):
@@ -72,7 +72,8 @@ class Promises(support.CommandTest):
                 result = self.call("check", "out.obj", "--ref", name, "--resolution", "256",
                                    "--wrap", "uv", "--padding", "12", "--json", "-")
                 self.assertEqual(result.returncode, 1)
-                self.assertEqual({f["kind"] for f in json.loads(result.stdout)["findings"]}, {"gap"})
+                findings = json.loads(result.stdout)["findings"]
+                self.assertEqual({finding["kind"] for finding in findings}, {"gap"})
                 self.assertIn("out.obj: ", result.stderr)
 
     def test_check_fails_after_a_uv_is_moved_into_a_neighbour(self):
@@ -131,8 +132,8 @@ class Promises(support.CommandTest):
         first, second, *_ = obj_polygons(self.path("kept.obj"))
         self.assertEqual(first, second)
         self.assertTrue(self.check("kept.obj", "a.obj", "--wrap", "uv", "--stacked", "keep")["ok"])
-        self.assertEqual(self.call("check", "kept.obj", "--ref", "a.obj", "--wrap", "uv").returncode,
-                         1)
+        apart = self.call("check", "kept.obj", "--ref", "a.obj", "--wrap", "uv")
+        self.assertEqual(apart.returncode, 1)
         self.pack("a.obj", "apart.obj")
         self.assertTrue(self.check("apart.obj", "a.obj", "--wrap", "uv")["ok"])
 
@@ -252,7 +253,6 @@ class Outputs(support.CommandTest):
 
     def test_in_place(self):
         self.sample("mosaic.ply")
-        self.sample("coral.glb")
         self.pack("mosaic.ply", "b.ply")
         self.pack("mosaic.ply", "mosaic.ply")
         self.assertEqual(self.path("mosaic.ply").read_bytes(), self.path("b.ply").read_bytes())

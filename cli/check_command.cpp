@@ -68,6 +68,11 @@ void print_notes(const CheckArguments& arguments, const CheckReport& report) {
   }
 }
 
+/// glTF counts v from the top, the other formats from the bottom.
+void turn_upside_down(Mesh& mesh) {
+  for (Vec2& uv : mesh.texcoords) uv.y = 1 - uv.y;
+}
+
 int run(CheckArguments& arguments) {
   const double start = seconds_now();
   const auto size = parse_resolution(arguments.resolution);
@@ -86,6 +91,7 @@ int run(CheckArguments& arguments) {
     auto loaded = load_model(arguments.reference, load_options);
     if (!loaded) return report_error(loaded.error());
     reference = std::move(*loaded);
+    if (reference->v_points_down != atlas->v_points_down) turn_upside_down(reference->mesh);
   }
   const auto report = check_atlas(atlas->mesh, reference ? &reference->mesh : nullptr, options);
   if (!report) {
@@ -122,7 +128,7 @@ Command make_check_command(CLI::App& parser) {
   CLI::App& app = *parser.add_subcommand(
       "check", "Check a finished atlas exactly: overlap, padding, bounds, and against its source");
   app.add_option("input", a.input, "The packed model")->required();
-  app.add_option("--ref", a.reference,
+  app.add_option("--ref,--reference", a.reference,
                  "The model it was packed from: every face must be there, every chart be a copy "
                  "at one common scale, none mirrored");
   app.add_option("--resolution", a.resolution, "Texels of the atlas: N or WxH")

@@ -41,12 +41,17 @@ int exit_status(ErrorKind kind) {
   return 3;
 }
 
-int report_error(const Error& error) {
-  std::string line = error.message();
-  for (char& c : line) {
-    if (c == '\n' || c == '\r') c = ' ';
+std::string printable(std::string text) {
+  for (char& c : text) {
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
   }
-  fmt::print(stderr, "wrapatlas: {}\n", line);
+  // The JSON writer knows what is valid UTF-8: it puts U+FFFD where it is not.
+  const std::string quoted = Json(text).dump(-1, ' ', false, Json::error_handler_t::replace);
+  return Json::parse(quoted).get<std::string>();
+}
+
+int report_error(const Error& error) {
+  fmt::print(stderr, "wrapatlas: {}\n", printable(error.message()));
   return exit_status(error.kind);
 }
 

@@ -16,6 +16,9 @@ using Json = nlohmann::ordered_json;
 /// 0 done, 1 a check failed, 2 usage, 3 unusable input or output, 4 no packing, 130 interrupted.
 int exit_status(ErrorKind kind);
 
+/// One line of valid UTF-8 without control characters: what a file holds may be put into it.
+std::string printable(std::string text);
+
 /// Prints the one line on stderr and returns the exit status.
 int report_error(const Error& error);
 

@@ -64,7 +64,7 @@ void print_text(const InfoArguments& arguments, const Model& model, const Json& 
         charts["stacked"].get<unsigned>(), charts["self_overlapping"].get<unsigned>(),
         charts["degenerate"].get<unsigned>(), charts["faces_without_uv"].get<unsigned>());
   }
-  for (const std::string& remark : model.remarks) fmt::print("  note: {}\n", remark);
+  for (const std::string& remark : model.remarks) fmt::print("  note: {}\n", printable(remark));
 }
 
 int run(const InfoArguments& arguments) {

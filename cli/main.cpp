@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <exception>
+#include <iterator>
 #include <new>
 
 #include "common.h"
@@ -23,6 +25,12 @@ int run(int argc, char** argv) {
 
   const Command commands[] = {make_pack_command(parser), make_check_command(parser),
                               make_info_command(parser)};
+  if (argc > 1 && argv[1][0] != '-' &&
+      std::none_of(std::begin(commands), std::end(commands),
+                   [&](const Command& command) { return command.app->get_name() == argv[1]; })) {
+    return report_error({wrapatlas::ErrorKind::usage, argv[1], "no such command",
+                         "use pack, check or info; wrapatlas --help says more"});
+  }
   try {
     parser.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

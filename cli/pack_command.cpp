@@ -36,6 +36,11 @@ Error usage(std::string where, std::string what, std::string remedy) {
   return {ErrorKind::usage, std::move(where), std::move(what), std::move(remedy)};
 }
 
+Error inside_input(const PackArguments& arguments, Error error) {
+  error.where = arguments.input + (error.where.empty() ? "" : ": " + error.where);
+  return error;
+}
+
 /// --resolution and --aspect together give the size in texels.
 Status resolve_size(const PackArguments& arguments, PackOptions& options) {
   const auto size = parse_resolution(arguments.resolution);
@@ -44,6 +49,10 @@ Status resolve_size(const PackArguments& arguments, PackOptions& options) {
   options.height = size->height;
   const std::string& aspect = arguments.aspect;
   if (aspect.empty()) return Done{};
+  if (size->two_sided) {
+    return usage("--aspect " + aspect, "--resolution WxH already gives the shape",
+                 "leave out --aspect, or give --resolution N");
+  }
   if (aspect == "search") {
     options.search_aspect = true;
     return Done{};
@@ -58,10 +67,6 @@ Status resolve_size(const PackArguments& arguments, PackOptions& options) {
       return usage("--aspect " + aspect, "not an aspect ratio",
                    "give square, search or W:H, e.g. 2:1, at most 1024:1");
     }
-  }
-  if (size->two_sided) {
-    return usage("--aspect " + aspect, "--resolution WxH already gives the shape",
-                 "leave out --aspect, or give --resolution N");
   }
   const double stretch = std::sqrt(across / up);
   const auto texels = [&](double side) {
@@ -116,7 +121,7 @@ std::optional<Error> check_result(const PackArguments& arguments, const Model& m
   options.threads = arguments.options.threads;
   const auto report = check_atlas(apply_atlas(model.mesh, atlas), &model.mesh, options);
   outcome.validate = seconds_now() - start;
-  if (!report) return report.error();
+  if (!report) return inside_input(arguments, report.error());
   outcome.valid = report->ok();
   if (report->ok()) return std::nullopt;
   const std::string first = report->findings.empty() ? "" : ": " + report->findings.front().text;
@@ -183,7 +188,7 @@ void print_summary(const PackArguments& arguments, const ChartSet& charts, const
 void print_remarks(const PackArguments& arguments, const Model& model, const ChartSet& charts) {
   if (arguments.quiet) return;
   const auto remark = [&](const std::string& text) {
-    fmt::print(stderr, "{}: note: {}\n", arguments.input, text);
+    fmt::print(stderr, "{}: note: {}\n", arguments.input, printable(text));
   };
   for (const std::string& text : model.remarks) remark(text);
   if (charts.faces_without_uv > 0) {
@@ -215,9 +220,7 @@ int run(PackArguments& arguments) {
   auto charts =
       build_charts(model->mesh, arguments.stacked == "keep" ? Stacked::keep : Stacked::separate);
   if (!charts) {
-    Error error = charts.error();
-    error.where = arguments.input + (error.where.empty() ? "" : ": " + error.where);
-    return report_error(error);
+    return report_error(inside_input(arguments, charts.error()));
   }
   outcome.charts = seconds_now() - charts_start;
   print_remarks(arguments, *model, *charts);
@@ -232,9 +235,7 @@ int run(PackArguments& arguments) {
   auto packing = pack(charts->charts, arguments.options);
   line.reset();
   if (!packing) {
-    Error error = packing.error();
-    if (error.where.empty()) error.where = arguments.input;
-    return report_error(error);
+    return report_error(inside_input(arguments, packing.error()));
   }
   outcome.pack = seconds_now() - pack_start;
 
@@ -305,7 +306,8 @@ Command make_pack_command(CLI::App& parser) {
   app.add_option("--padding", a.padding,
                  "Texels between charts, kept exactly. Default: max(2, resolution / 256)");
   app.add_option("--margin", a.margin,
-                 "Texels to a side that does not wrap. Default: half the padding");
+                 "Texels to a side that does not wrap. Default: half the padding")
+      ->check(CLI::NonNegativeNumber);
   app.add_option("--block", a.options.block,
                  "No two charts share a block of N x N texels (4 for BCn compression)")
       ->capture_default_str();
@@ -340,6 +342,7 @@ Command make_pack_command(CLI::App& parser) {
   app.add_flag("--no-inner", a.no_inner, "Leave out the four inner strategies (modulo)");
   app.add_flag("--all-sides", a.options.all_sides, "Try all four sides for every chart (zsgs04)");
   app.add_option("--seed", a.options.seed, "Reported; these methods draw no random numbers")
+      ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
   app.add_option("--threads", a.options.threads,
                  "Threads; 0: all of the machine's. Never changes the result")

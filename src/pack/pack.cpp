@@ -317,7 +317,7 @@ Result<Packing> pack(std::span<const Chart> charts, const PackOptions& options) 
     return Error{ErrorKind::no_packing, "",
                  fmt::format("no scale was found at which {} charts fit {} x {} texels",
                              charts.size(), options.width, options.height),
-                 "raise --resolution or lower --padding"};
+                 "raise --resolution, or lower --padding and --margin"};
   }
   Packing packing = to_packing(*best, packer, options);
   packing.interrupted = meter.stopped();

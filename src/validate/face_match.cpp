@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <optional>
+
 #include "validate/connectivity.h"
 
 namespace wrapatlas::validate {
@@ -80,6 +82,9 @@ class Face {
     return length(area - area_) <= area_rounding_;
   }
 
+  /// The share of the face's area that rounding can hide.
+  [[nodiscard]] double area_doubt() const { return thin_ ? 0 : area_rounding_ / length(area_); }
+
   [[nodiscard]] bool counts_as_flat(const Vec3& area) const {
     return length(area) <= area_rounding_;
   }
@@ -88,6 +93,18 @@ class Face {
     if (atlas.face_size(face) != size_) return false;
     for (std::uint32_t i = 0; i < size_; ++i) {
       if (length(position(atlas, atlas.face_begin[face] + i) - at(i)) > rounding_) return false;
+    }
+    return true;
+  }
+
+  /// Whether all corners are among those of a face of the atlas.
+  [[nodiscard]] bool is_within(const Mesh& atlas, std::size_t face) const {
+    for (std::uint32_t i = 0; i < size_; ++i) {
+      bool found = false;
+      for (std::uint32_t c = atlas.face_begin[face]; c < atlas.face_begin[face + 1]; ++c) {
+        found = found || length(position(atlas, c) - at(i)) <= rounding_;
+      }
+      if (!found) return false;
     }
     return true;
   }
@@ -209,7 +226,7 @@ class Tiling {
     if (face.equals(atlas_, first)) return 1;
     const std::size_t tiles =
         face.thin() ? tiles_by_texcoords(face, reference_face, first) : tiles_in_space(face, first);
-    return tiles == 0 ? 0 : tiles + flat_remainders(face, first, tiles);
+    return tiles == 0 ? 0 : tiles + flat_remainders(face, reference_face, first + tiles);
   }
 
  private:
@@ -236,28 +253,21 @@ class Tiling {
     return 0;
   }
 
-  /// Tiles without area that may follow when the face is full: they only repeat corners.
-  std::size_t flat_remainders(const Face& face, std::size_t first, std::size_t tiles) const {
-    std::size_t f = first + tiles;
+  /// Tiles too small to be missed that follow when the face is full: of the tip of a face that
+  /// just crosses the border, say. What holds the whole next face of the reference is none.
+  std::size_t flat_remainders(const Face& face, std::size_t reference_face,
+                              std::size_t first) const {
+    const double whole = area_ratio_ * std::abs(texcoord_area(reference_, reference_face));
+    const double small = 2 * face.area_doubt() * whole + 1e-3 / texels_;
+    std::optional<Face> next;
+    if (reference_face + 1 < reference_.face_count()) next.emplace(reference_, reference_face + 1);
+    std::size_t f = first;
     while (f < atlas_.face_count() && face.contains(atlas_, f) &&
            face.counts_as_flat(vector_area(atlas_, f, face.origin())) &&
-           repeats_corners(f, first)) {
+           std::abs(texcoord_area(atlas_, f)) <= small && !(next && next->is_within(atlas_, f))) {
       ++f;
     }
-    return f - first - tiles;
-  }
-
-  bool repeats_corners(std::size_t face, std::size_t first) const {
-    const std::uint32_t begin = atlas_.face_begin[face];
-    for (std::uint32_t c = begin; c < atlas_.face_begin[face + 1]; ++c) {
-      bool known = false;
-      for (std::uint32_t d = atlas_.face_begin[first]; d < begin && !known; ++d) {
-        known = position(atlas_, d) == position(atlas_, c) &&
-                texcoord(atlas_, d) == texcoord(atlas_, c);
-      }
-      if (!known) return false;
-    }
-    return std::abs(texcoord_area(atlas_, face)) * texels_ < 1e-3;
+    return f - first;
   }
 
   const Mesh& atlas_;

@@ -35,6 +35,32 @@ TEST(ValidateReference, MirroredChart) {
   EXPECT_EQ(report.findings[0].chart_a, 1U);
 }
 
+TEST(ValidateReference, TipThatJustCrossesTheBorder) {
+  const double e = 1e-4;  // texels: an area below the rounding of positions
+  const auto in_space = [](std::vector<Vec2> points) {
+    std::vector<Vec3> positions;
+    for (const Vec2 p : points) positions.push_back({p.x / 64, p.y / 64, 0});
+    return positions;
+  };
+  const std::vector<Vec2> flat_uvs{{30, 40}, {35, 40}, {40, 40}};
+  const std::vector<Vec3> flat = in_space({{5, 0}, {10, 0}, {20, 0}});  // on an edge of the first
+  const std::vector<Vec2> square{{30, 10}, {50, 10}, {50, 30}, {30, 30}};
+  for (const int flat_faces : {0, 1, 2}) {
+    Builder reference, atlas;
+    reference.face({{0, 0}, {20, 0}, {5, 10}}, in_space({{0, 0}, {20, 0}, {5, 10}}));
+    atlas.face({{0, 0}, {20 - e, 0}, {5 - e, 10}, {0, 2 * e}},
+               in_space({{e, 0}, {20, 0}, {5, 10}, {e, 2 * e}}));
+    atlas.face({{64 - e, 0}, {64, 0}, {64, 2 * e}}, in_space({{0, 0}, {e, 0}, {e, 2 * e}}));
+    for (Builder* b : {&reference, &atlas}) {
+      for (int i = 0; i < flat_faces; ++i) b->face(flat_uvs, flat);
+      b->face(square, in_space(square));
+    }
+    const CheckReport report = check(atlas.mesh, options_of(Wrap::u), &reference.mesh);
+    EXPECT_TRUE(report.ok()) << (report.findings.empty() ? "" : report.findings[0].text);
+    EXPECT_EQ(report.faces, atlas.mesh.face_count());
+  }
+}
+
 TEST(ValidateReference, TinyAndFlatChartsAreNoMirrors) {
   Builder b;
   b.box(0, 0, 30, 30);

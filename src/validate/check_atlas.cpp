@@ -55,6 +55,7 @@ Result<CheckReport> Checker::run() {
   check_sides();
   if (reference_ != nullptr) {
     fit(own.of_face);
+    check_areas_of_faces();
     if (Status status = reassemble(); !status) return status.error();
   }
   if (Status status = check_distances(); !status) return status.error();

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <tuple>
 
 #include "validate/checker.h"
@@ -10,6 +11,26 @@ namespace wrapatlas::validate {
 namespace {
 
 constexpr double kScaleTolerance = 1e-5;
+
+struct Outline {
+  double area = 0, length = 0;
+};
+
+Outline outline_of(const Mesh& mesh, std::size_t face, Vec2 unit) {
+  Outline outline;
+  const std::uint32_t begin = mesh.face_begin[face], end = mesh.face_begin[face + 1];
+  const auto at = [&](std::uint32_t c) {
+    const Vec2 d =
+        mesh.texcoords[mesh.corner_texcoord[c]] - mesh.texcoords[mesh.corner_texcoord[begin]];
+    return Vec2{d.x * unit.x, d.y * unit.y};
+  };
+  for (std::uint32_t c = begin; c < end; ++c) {
+    const Vec2 a = at(c), b = at(c + 1 == end ? begin : c + 1);
+    outline.area += 0.5 * cross(a, b);
+    outline.length += length(b - a);
+  }
+  return outline;
+}
 
 }  // namespace
 
@@ -75,6 +96,34 @@ void Checker::fit(const std::vector<std::uint32_t>& face_piece) {
         findings_.add({Violation::scale, i, kNone, chart.worst_face, kNone, ratio,
                        fmt::format("chart {} has {:.8g} times the common scale", i, ratio)});
       }
+    }
+  }
+}
+
+/// In space a missing sliver can drown in the rounding of positions; in the texture it is seen.
+void Checker::check_areas_of_faces() {
+  std::uint32_t end = 0;
+  for (std::uint32_t first = 0; first < atlas_.face_count(); first = end) {
+    const std::uint32_t source = match_.source[first], chart = original_.of_face[source];
+    Outline pieces;
+    bool judged = chart != kNone && fits_.charts[chart].verdict == ChartFit::Verdict::similar;
+    for (end = first; end < atlas_.face_count() && match_.source[end] == source; ++end) {
+      judged = judged && face_chart_[end] == chart;
+      if (!judged) continue;
+      const Outline piece = outline_of(atlas_, end, size_);
+      pieces = {pieces.area + piece.area, pieces.length + piece.length};
+    }
+    if (!judged) continue;
+    const ChartFit& fit = fits_.charts[chart];
+    const Outline whole = outline_of(*reference_, source, {fit.scale, fit.scale});
+    const double sign = whole.area < 0 ? -1 : 1;
+    const double lacking = sign * (whole.area - pieces.area);
+    if (lacking > (options_.tolerance + 3 * rounding_[chart]) * pieces.length +
+                      2 * fit.scale_doubt * std::abs(whole.area)) {
+      findings_.add({Violation::missing_face, chart, kNone, first, source, lacking,
+                     fmt::format("face {} of the reference (chart {}) is not whole: pieces with "
+                                 "{:.6g} square texels are not in the atlas",
+                                 source, chart, lacking)});
     }
   }
 }

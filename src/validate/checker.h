@@ -29,6 +29,7 @@ class Checker {
  private:
   Status compare(const FaceCharts& own);
   void fit(const std::vector<std::uint32_t>& face_piece);
+  void check_areas_of_faces();
   Status reassemble();
   Status find_stacks_of_reference();
   void check_sides();

@@ -116,8 +116,8 @@ int bench_slide(const ChartOptions& options) {
   };
   add_slide("plain loop", plain);
   for (const auto& [name, function] :
-       {std::pair{"scalar (compiled for SSE4)", slide_scalar()}, std::pair{"AVX2", slide_avx2()},
-        std::pair{"AVX-512", slide_avx512()}}) {
+       {std::pair{"scalar (compiled for SSE4)", scalar_kernels().slide},
+        std::pair{"AVX2", avx2_kernels().slide}, std::pair{"AVX-512", avx512_kernels().slide}}) {
     if (function == nullptr) {
       slides.add({name, "-", "-", "-"});
       continue;

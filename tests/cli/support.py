@@ -73,7 +73,7 @@ class CommandTest(unittest.TestCase):
     def path(self, name):
         return self.folder / name
 
-    def call(self, *arguments, timeout=120, **options):
+    def call(self, *arguments, timeout=400, **options):
         return subprocess.run([COMMAND, *map(str, arguments)], cwd=self.folder, timeout=timeout,
                               capture_output=True, text=True, stdin=subprocess.DEVNULL, **options)
 

@@ -22,7 +22,7 @@ class Interrupt(support.CommandTest):
         process = subprocess.Popen([COMMAND, *arguments], cwd=self.folder, stderr=end,
                                    stdout=subprocess.PIPE, text=True)
         os.close(end)
-        timer = threading.Timer(60, process.kill)
+        timer = threading.Timer(300, process.kill)
         timer.start()
         text = ""
         try:
@@ -40,7 +40,7 @@ class Interrupt(support.CommandTest):
             timer.cancel()
             os.close(terminal)
         self.assertEqual(signals, 0, f"'{seen}' was never shown: {text[-1000:]}")
-        self.assertLess(time.monotonic() - asked, 30)
+        self.assertLess(time.monotonic() - asked, 100)
         return process.returncode, output, text.split("\033[K")[-1]
 
     def test_after_a_packing_was_found(self):

@@ -326,7 +326,7 @@ Command make_pack_command(CLI::App& parser) {
       ->check(CLI::IsMember({"input", "box"}))
       ->capture_default_str();
   app.add_option("--grid", a.options.grid,
-                 "Cells along the longer side of the search grid; finer is denser and slower. "
+                 "Cells along the longer side of the search grid; finer is slower and, as a rule, "
                  "0: 256, more for many charts")
       ->capture_default_str();
   app.add_option("--coverage", a.coverage,

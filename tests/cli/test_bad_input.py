@@ -326,7 +326,7 @@ class TooLarge(support.CommandTest):
                   for i in range(count)]
         self.write("a.obj", obj(charts))
         report = self.report("pack", "a.obj", "-o", "b.obj", "--resolution", "4096", "--padding",
-                             "1", "--method", "lprm02", "--quiet")
+                             "1", "--method", "lprm02", "--grid", "1024", "--quiet")
         self.assertEqual((report["charts"], report["placed"]), (count, count))
         self.assertEqual(len(obj_lines(self.path("b.obj").read_text(), "f")), count)
 

@@ -120,11 +120,19 @@ class Tiling {
     return f - first - tiles;
   }
 
-  /// Does the face share an edge that is still open with those before it, from `first` on?
+  /// Does the face share an edge that is still open with those before it, from `first` on? With
+  /// coarse positions a piece can be a mere point, which then has to be a corner of theirs.
   [[nodiscard]] bool is_cut_off(std::size_t face, std::size_t first) const {
     const std::uint32_t begin = atlas_.face_begin[face], end = atlas_.face_begin[face + 1];
+    bool point = true;
     for (std::uint32_t c = begin; c < end; ++c) {
-      if (open_uses(c, c + 1 == end ? begin : c + 1, first, face) > 0) return true;
+      const std::uint32_t next = c + 1 == end ? begin : c + 1;
+      if (same_place(c, next)) continue;
+      point = false;
+      if (open_uses(c, next, first, face) > 0) return true;
+    }
+    for (std::uint32_t c = atlas_.face_begin[first]; point && c < begin; ++c) {
+      if (same_place(c, begin)) return true;
     }
     return false;
   }

@@ -102,11 +102,16 @@ void Checker::fit(const std::vector<std::uint32_t>& face_piece) {
 
 /// In space a missing sliver can drown in the rounding of positions; in the texture it is seen.
 void Checker::check_areas_of_faces() {
+  struct Run {
+    std::uint32_t first, source, chart;
+    double lacking, allowed;
+  };
+  std::vector<Run> runs;
   std::uint32_t end = 0;
   for (std::uint32_t first = 0; first < atlas_.face_count(); first = end) {
     const std::uint32_t source = match_.source[first], chart = original_.of_face[source];
-    Outline pieces;
     bool judged = chart != kNone && fits_.charts[chart].verdict == ChartFit::Verdict::similar;
+    Outline pieces;
     for (end = first; end < atlas_.face_count() && match_.source[end] == source; ++end) {
       judged = judged && face_chart_[end] == chart;
       if (!judged) continue;
@@ -117,14 +122,27 @@ void Checker::check_areas_of_faces() {
     const ChartFit& fit = fits_.charts[chart];
     const Outline whole = outline_of(*reference_, source, {fit.scale, fit.scale});
     const double sign = whole.area < 0 ? -1 : 1;
-    const double lacking = sign * (whole.area - pieces.area);
-    if (lacking > (options_.tolerance + 3 * rounding_[chart]) * pieces.length +
-                      2 * fit.scale_doubt * std::abs(whole.area)) {
-      findings_.add({Violation::missing_face, chart, kNone, first, source, lacking,
-                     fmt::format("face {} of the reference (chart {}) is not whole: pieces with "
-                                 "{:.6g} square texels are not in the atlas",
-                                 source, chart, lacking)});
-    }
+    runs.push_back({first, source, chart, sign * (whole.area - pieces.area),
+                    (options_.tolerance + 3 * rounding_[chart]) * pieces.length +
+                        2 * fit.scale_doubt * std::abs(whole.area)});
+  }
+  // A sliver between two faces of a chart may have been counted as one of the other face.
+  const auto lacking = [&](std::size_t i, const Run& near, double sign) {
+    return i < runs.size() && runs[i].chart == near.chart ? std::max(0.0, sign * runs[i].lacking)
+                                                          : 0.0;
+  };
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    const Run& run = runs[i];
+    const double sign = run.lacking < 0 ? -1 : 1;
+    const double amount =
+        std::abs(run.lacking) - lacking(i - 1, run, -sign) - lacking(i + 1, run, -sign);
+    if (amount <= run.allowed) continue;
+    const Violation kind = sign < 0 ? Violation::self_overlap : Violation::missing_face;
+    findings_.add({kind, run.chart, kNone, run.first, run.source, amount,
+                   fmt::format("the pieces of face {} of the reference (chart {}) {} {:.6g} square "
+                               "texels",
+                               run.source, run.chart,
+                               sign < 0 ? "cover it more than once, by" : "leave out", amount)});
   }
 }
 

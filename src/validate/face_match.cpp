@@ -91,18 +91,15 @@ class Tiling {
   /// the side shared with the next face could be of either: it is of the face that it was cut off.
   std::size_t slivers(const ReferenceFace& face, std::size_t reference_face, std::size_t first,
                       std::size_t tiles) const {
+    if (first + tiles >= atlas_.face_count() || !face.contains(atlas_, first + tiles)) return 0;
     std::optional<ReferenceFace> next;
+    if (reference_face + 1 < reference_.face_count()) next.emplace(reference_, reference_face + 1);
     Vec3 area;
+    for (std::size_t tile = first; tile < first + tiles; ++tile) {
+      area = area + vector_area(atlas_, tile, face.origin());
+    }
     std::size_t f = first + tiles, sure_end = f;
     for (; f < atlas_.face_count() && face.contains(atlas_, f); ++f) {
-      if (!next) {
-        if (reference_face + 1 < reference_.face_count()) {
-          next.emplace(reference_, reference_face + 1);
-        }
-        for (std::size_t tile = first; tile < f; ++tile) {
-          area = area + vector_area(atlas_, tile, face.origin());
-        }
-      }
       const Vec3 own = vector_area(atlas_, f, face.origin());
       area = area + own;
       if (!face.counts_as_flat(own) || !(face.thin() || face.still_filled_by(area))) break;
@@ -120,11 +117,21 @@ class Tiling {
     return f - first - tiles;
   }
 
-  /// Does the face share an edge that is still open with those before it, from `first` on?
+  /// Does the face share an edge that is still open with those before it, from `first` on? With
+  /// coarse positions a piece can be a mere line or point: then it shares a corner with them.
   [[nodiscard]] bool is_cut_off(std::size_t face, std::size_t first) const {
     const std::uint32_t begin = atlas_.face_begin[face], end = atlas_.face_begin[face + 1];
+    bool collapsed = true;
     for (std::uint32_t c = begin; c < end; ++c) {
-      if (open_uses(c, c + 1 == end ? begin : c + 1, first, face) > 0) return true;
+      const std::uint32_t next = c + 1 == end ? begin : c + 1;
+      if (open_uses(c, next, first, face) > 0) return true;
+      collapsed = collapsed && open_uses(c, next, face, face + 1) == 0;
+    }
+    if (!collapsed) return false;
+    for (std::uint32_t c = begin; c < end; ++c) {
+      for (std::uint32_t d = atlas_.face_begin[first]; d < begin; ++d) {
+        if (same_place(c, d)) return true;
+      }
     }
     return false;
   }

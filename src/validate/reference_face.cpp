@@ -86,7 +86,10 @@ FaceMatch::Corner ReferenceFace::locate(const Vec3& p) const {
   }
   if (near_a_corner && thin_) ambiguous = ambiguous || elsewhere_too(p, corner.uv);
   if (ambiguous) return {corner.uv, kUnknown, false};
-  if (corner.original) return corner;
+  if (corner.original) {
+    if (!thin_) corner.doubt = 0.5 * rounding_ * steepest();  // a cut next to it is stored as it
+    return corner;
+  }
   double distance = kUnknown;
   const FaceMatch::Corner found = on_outline(p, distance);
   if (thin_) return {found.uv, kUnknown, false};

@@ -60,11 +60,11 @@ void print_notes(const CheckArguments& arguments, const CheckReport& report) {
   const std::size_t shown =
       arguments.verbose ? report.remarks.size() : std::min(kFew, report.remarks.size());
   for (std::size_t i = 0; i < shown; ++i) {
-    fmt::print(stderr, "{}: note: {}\n", arguments.input, report.remarks[i]);
+    say("{}: note: {}\n", arguments.input, report.remarks[i]);
   }
   if (shown < report.remarks.size()) {
-    fmt::print(stderr, "{}: note: and {} more like these (--verbose shows all)\n", arguments.input,
-               report.remarks.size() - shown);
+    say("{}: note: and {} more like these (--verbose shows all)\n", arguments.input,
+        report.remarks.size() - shown);
   }
 }
 
@@ -99,6 +99,10 @@ int run(CheckArguments& arguments) {
     error.where = arguments.input + (error.where.empty() ? "" : ": " + error.where);
     return report_error(error);
   }
+  if (report->charts == 0) {
+    return report_error({ErrorKind::input, arguments.input, "no face has UVs, so there is no atlas",
+                         "check a model that was packed"});
+  }
   if (!arguments.json.empty()) {
     const Status ok =
         write_json(arguments.json, to_json(arguments, *report, seconds_now() - start));
@@ -107,15 +111,14 @@ int run(CheckArguments& arguments) {
   if (!arguments.quiet) {
     print_notes(arguments, *report);
     for (const Finding& finding : report->findings) {
-      fmt::print(stderr, "{}: {}\n", arguments.input, finding.text);
+      say("{}: {}\n", arguments.input, finding.text);
     }
     if (report->violations > report->findings.size()) {
-      fmt::print(stderr, "{}: and {} more\n", arguments.input,
-                 report->violations - report->findings.size());
+      say("{}: and {} more\n", arguments.input, report->violations - report->findings.size());
     }
-    fmt::print(stderr, "{}: {}: {} charts, {:.1f} % in use\n", arguments.input,
-               report->ok() ? "ok" : fmt::format("{} violations", report->violations),
-               report->charts, 100 * report->efficiency);
+    say("{}: {}: {} charts, {:.1f} % in use\n", arguments.input,
+        report->ok() ? "ok" : fmt::format("{} violations", report->violations), report->charts,
+        100 * report->efficiency);
   }
   return report->ok() ? 0 : 1;
 }

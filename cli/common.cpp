@@ -50,8 +50,19 @@ std::string printable(std::string text) {
   return Json::parse(quoted).get<std::string>();
 }
 
+void say_text(const std::string& text) noexcept {
+  static_cast<void>(std::fwrite(text.data(), 1, text.size(), stderr));
+}
+
+Status print_text(const std::string& text) {
+  if (std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0) {
+    return Done{};
+  }
+  return Error{ErrorKind::output, "standard output", "cannot write", "check where it goes"};
+}
+
 int report_error(const Error& error) {
-  fmt::print(stderr, "wrapatlas: {}\n", printable(error.message()));
+  say("wrapatlas: {}\n", printable(error.message()));
   return exit_status(error.kind);
 }
 
@@ -86,16 +97,17 @@ Wrap parse_wrap(const std::string& name) {
 
 const char* wrap_name(Wrap wrap) { return kWrapNames[static_cast<std::size_t>(wrap)]; }
 
-const char* method_name(Method method) { return kMethodNames[static_cast<std::size_t>(method)]; }
+Method parse_method(const std::string& name) {
+  for (std::size_t i = 0; i < kMethodNames.size(); ++i) {
+    if (name == kMethodNames[i]) return static_cast<Method>(i);
+  }
+  return Method::modulo;
+}
 
 Status write_json(const std::string& path, const Json& object) {
   const std::string text =
       object.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
-  if (path != "-") return write_file(path, text);
-  if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0) {
-    return Error{ErrorKind::output, "standard output", "cannot write", "check where it goes"};
-  }
-  return Done{};
+  return path == "-" ? print_text(text) : write_file(path, text);
 }
 
 double seconds_now() {
@@ -121,18 +133,17 @@ bool interrupted() { return interrupt_flag != 0; }
 ProgressLine::ProgressLine(bool wanted) : active_(wanted && ::isatty(STDERR_FILENO) != 0) {}
 
 ProgressLine::~ProgressLine() {
-  if (shown_) fmt::print(stderr, "\r\033[K");
+  if (shown_) say("\r\033[K");
 }
 
 void ProgressLine::show(const Progress& progress) {
   if (!active_) return;
   shown_ = true;
-  fmt::print(stderr, "\rpacking {:3.0f} %", 100 * progress.fraction);
+  say("\rpacking {:3.0f} %", 100 * progress.fraction);
   if (progress.best_efficiency > 0) {
-    fmt::print(stderr, ", best so far {:.1f} % of the atlas in use",
-               100 * progress.best_efficiency);
+    say(", best so far {:.1f} % of the atlas in use", 100 * progress.best_efficiency);
   }
-  fmt::print(stderr, " (Ctrl-C keeps the best)");
+  say(" (Ctrl-C keeps the best)");
   std::fflush(stderr);
 }
 

@@ -1,10 +1,13 @@
 // What the sub-commands share: exit statuses, options, JSON, progress, interruption.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
 
 #include "wrapatlas/pack.h"
 #include "wrapatlas/result.h"
@@ -18,6 +21,16 @@ int exit_status(ErrorKind kind);
 
 /// One line of valid UTF-8 without control characters: what a file holds may be put into it.
 std::string printable(std::string text);
+
+/// Writes to stderr; that it cannot be written is nobody's concern.
+void say_text(const std::string& text) noexcept;
+template <typename... Values>
+void say(fmt::format_string<Values...> format, Values&&... values) {
+  say_text(fmt::format(format, std::forward<Values>(values)...));
+}
+
+/// Writes to standard output and flushes it.
+Status print_text(const std::string& text);
 
 /// Prints the one line on stderr and returns the exit status.
 int report_error(const Error& error);
@@ -41,7 +54,7 @@ Command make_info_command(CLI::App& parser);
 void add_wrap_option(CLI::App& app, std::string& value, const std::string& help);
 Wrap parse_wrap(const std::string& name);
 const char* wrap_name(Wrap wrap);
-const char* method_name(Method method);
+Method parse_method(const std::string& name);
 
 /// Writes the object to a file, or to standard output for "-".
 Status write_json(const std::string& path, const Json& object);

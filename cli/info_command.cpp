@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 
 #include "common.h"
 #include "wrapatlas/charts.h"
@@ -44,27 +45,33 @@ Json describe_charts(const ChartSet& set) {
           {"faces_without_uv", set.faces_without_uv}};
 }
 
-void print_text(const InfoArguments& arguments, const Model& model, const Json& charts) {
-  fmt::print("{}\n  {} faces, {} vertices, {} UVs\n", arguments.input, model.mesh.face_count(),
-             model.mesh.positions.size(), model.mesh.texcoords.size());
+std::string to_text(const InfoArguments& arguments, const Model& model, const Json& charts) {
+  std::string text;
+  const auto out = std::back_inserter(text);
+  fmt::format_to(out, "{}\n  {} faces, {} vertices, {} UVs\n", arguments.input,
+                 model.mesh.face_count(), model.mesh.positions.size(), model.mesh.texcoords.size());
   if (charts.is_null()) {
-    fmt::print("  no UVs, so there is nothing to pack\n");
+    fmt::format_to(out, "  no UVs, so there is nothing to pack\n");
   } else {
-    fmt::print("  {} charts, {} triangles\n", charts["count"].get<std::size_t>(),
-               charts["triangles"].get<std::size_t>());
-    fmt::print("  UV range [{:.4g}, {:.4g}] x [{:.4g}, {:.4g}]\n",
-               charts["uv_min"][0].get<double>(), charts["uv_max"][0].get<double>(),
-               charts["uv_min"][1].get<double>(), charts["uv_max"][1].get<double>());
-    fmt::print("  chart area: total {:.4g}, smallest {:.4g}, median {:.4g}, largest {:.4g}\n",
-               charts["area"].get<double>(), charts["area_smallest"].get<double>(),
-               charts["area_median"].get<double>(), charts["area_largest"].get<double>());
-    fmt::print(
+    fmt::format_to(out, "  {} charts, {} triangles\n", charts["count"].get<std::size_t>(),
+                   charts["triangles"].get<std::size_t>());
+    fmt::format_to(out, "  UV range [{:.4g}, {:.4g}] x [{:.4g}, {:.4g}]\n",
+                   charts["uv_min"][0].get<double>(), charts["uv_max"][0].get<double>(),
+                   charts["uv_min"][1].get<double>(), charts["uv_max"][1].get<double>());
+    fmt::format_to(out,
+                   "  chart area: total {:.4g}, smallest {:.4g}, median {:.4g}, largest {:.4g}\n",
+                   charts["area"].get<double>(), charts["area_smallest"].get<double>(),
+                   charts["area_median"].get<double>(), charts["area_largest"].get<double>());
+    fmt::format_to(
+        out,
         "  {} charts overlap others, {} overlap themselves, {} have no area, {} faces have no "
         "UVs\n",
         charts["stacked"].get<unsigned>(), charts["self_overlapping"].get<unsigned>(),
         charts["degenerate"].get<unsigned>(), charts["faces_without_uv"].get<unsigned>());
   }
-  for (const std::string& remark : model.remarks) fmt::print("  note: {}\n", printable(remark));
+  for (const std::string& remark : model.remarks)
+    fmt::format_to(out, "  note: {}\n", printable(remark));
+  return text;
 }
 
 int run(const InfoArguments& arguments) {
@@ -75,8 +82,8 @@ int run(const InfoArguments& arguments) {
   const auto set = build_charts(model->mesh);
   const Json charts = set ? describe_charts(*set) : Json();
   if (arguments.json.empty()) {
-    print_text(arguments, *model, charts);
-    return 0;
+    const Status printed = print_text(to_text(arguments, *model, charts));
+    return printed ? 0 : report_error(printed.error());
   }
   const Json object = {{"version", WRAPATLAS_VERSION},
                        {"command", "info"},

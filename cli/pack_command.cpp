@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <mutex>
 #include <optional>
 
 #include "common.h"
+#include "io/file.h"
 #include "wrapatlas/atlas.h"
 #include "wrapatlas/charts.h"
 #include "wrapatlas/model.h"
@@ -80,10 +80,7 @@ Status resolve_size(const PackArguments& arguments, PackOptions& options) {
 
 Status resolve_options(PackArguments& arguments) {
   PackOptions& options = arguments.options;
-  const char* const names[] = {"lprm02", "swg03", "zsgs04", "modulo"};
-  for (int i = 0; i < 4; ++i) {
-    if (arguments.method == names[i]) options.method = static_cast<Method>(i);
-  }
+  options.method = parse_method(arguments.method);
   if (const Status ok = resolve_size(arguments, options); !ok) return ok;
   const bool can_wrap = options.method == Method::modulo;
   options.wrap =
@@ -173,22 +170,21 @@ Json to_json(const PackArguments& arguments, const ChartSet& charts, const Packi
 
 void print_summary(const PackArguments& arguments, const ChartSet& charts, const Packing& packing,
                    double total) {
-  fmt::print(stderr, "{}: {} charts on {} x {} texels, {:.1f} % in use, {:.2f} s -> {}\n",
-             arguments.input, charts.charts.size(), packing.width, packing.height,
-             100 * packing.efficiency, total, arguments.output);
+  say("{}: {} charts on {} x {} texels, {:.1f} % in use, {:.2f} s{} -> {}\n", arguments.input,
+      charts.charts.size(), packing.width, packing.height, 100 * packing.efficiency, total,
+      packing.interrupted ? " (interrupted: the best so far)" : "", arguments.output);
   if (!arguments.verbose) return;
-  fmt::print(stderr, "  method {}, wrap {}, padding {} texels, {} rotations, grid {} x {}\n",
-             arguments.method, wrap_name(packing.wrap), arguments.options.padding,
-             arguments.options.rotations, packing.grid_width, packing.grid_height);
-  fmt::print(stderr,
-             "  {} packings, scale {:.6g} texels per UV unit, raster {:.3f} s, place {:.3f} s\n",
-             packing.packings, packing.scale, packing.raster_seconds, packing.place_seconds);
+  say("  method {}, wrap {}, padding {} texels, {} rotations, grid {} x {}\n", arguments.method,
+      wrap_name(packing.wrap), arguments.options.padding, arguments.options.rotations,
+      packing.grid_width, packing.grid_height);
+  say("  {} packings, scale {:.6g} texels per UV unit, raster {:.3f} s, place {:.3f} s\n",
+      packing.packings, packing.scale, packing.raster_seconds, packing.place_seconds);
 }
 
 void print_remarks(const PackArguments& arguments, const Model& model, const ChartSet& charts) {
   if (arguments.quiet) return;
   const auto remark = [&](const std::string& text) {
-    fmt::print(stderr, "{}: note: {}\n", arguments.input, printable(text));
+    say("{}: note: {}\n", arguments.input, printable(text));
   };
   for (const std::string& text : model.remarks) remark(text);
   if (charts.faces_without_uv > 0) {
@@ -203,12 +199,22 @@ void print_remarks(const PackArguments& arguments, const Model& model, const Cha
   }
 }
 
+/// What can be known of the outputs before the work begins.
+Status check_outputs(const PackArguments& arguments) {
+  const auto format = format_from_path(arguments.output);
+  if (!format) return format.error();
+  if (*format == FileFormat::off || *format == FileFormat::stl) {
+    return usage(arguments.output, "OFF and STL files cannot hold UVs",
+                 "write .obj, .ply, .gltf or .glb");
+  }
+  if (arguments.image.empty()) return Done{};
+  return check_picture_path(arguments.image);
+}
+
 int run(PackArguments& arguments) {
   const double start = seconds_now();
   if (const Status ok = resolve_options(arguments); !ok) return report_error(ok.error());
-  if (const auto format = format_from_path(arguments.output); !format) {
-    return report_error(format.error());
-  }
+  if (const Status ok = check_outputs(arguments); !ok) return report_error(ok.error());
   Outcome outcome;
   LoadOptions load_options;
   load_options.texcoord_set = arguments.texcoord;
@@ -248,11 +254,11 @@ int run(PackArguments& arguments) {
     if (error->kind != ErrorKind::check || arguments.options.coverage != Coverage::center) {
       return report_error(*error);
     }
-    fmt::print(stderr, "{}: warning: {} (--coverage center is not safe)\n", arguments.input,
-               error->what);
+    say("{}: warning: {} (--coverage center is not safe)\n", arguments.input, error->what);
   }
 
   const double write_start = seconds_now();
+  OutputTransaction outputs;
   if (const Status ok = save_model(*model, atlas, arguments.output); !ok) {
     return report_error(ok.error());
   }
@@ -271,6 +277,7 @@ int run(PackArguments& arguments) {
         write_json(arguments.json, to_json(arguments, *charts, *packing, outcome, total));
     if (!ok) return report_error(ok.error());
   }
+  if (const Status ok = outputs.commit(); !ok) return report_error(ok.error());
   if (!arguments.quiet) print_summary(arguments, *charts, *packing, total);
   return packing->interrupted ? 130 : 0;
 }
@@ -327,7 +334,7 @@ Command make_pack_command(CLI::App& parser) {
       ->capture_default_str();
   app.add_option("--grid", a.options.grid,
                  "Cells along the longer side of the search grid; finer is slower and, as a rule, "
-                 "0: 256, more for many charts")
+                 "denser. 0: 256, more for many charts")
       ->capture_default_str();
   app.add_option("--coverage", a.coverage,
                  "When a cell belongs to a chart: conservative (safe), or center (the paper's; "

@@ -42,7 +42,8 @@ Chart chart_from_triangles(std::vector<Vec2> points,
                            std::vector<std::array<std::uint32_t, 3>> triangles);
 
 /// Builds a chart from closed loops of points (non-zero winding rule), for callers who have
-/// outlines and no mesh. Each loop has at least three points; the area is the loops' signed area.
+/// outlines and no mesh. Errors: input (no loop, a loop of fewer
+/// than three points, coordinates that are not finite or beyond 1e30).
 Result<Chart> chart_from_loops(std::span<const std::vector<Vec2>> loops);
 
 /// What to do with charts that lie on top of each other in the input.

@@ -37,6 +37,9 @@ Image draw_atlas(std::span<const Chart> charts, const Packing& packing,
 std::string draw_atlas_svg(std::span<const Chart> charts, const Packing& packing,
                            const PictureOptions& options = {});
 
+/// Is the ending one of a picture? Error: usage.
+Status check_picture_path(const std::filesystem::path& path);
+
 /// Draws to a file, PNG or SVG by its ending. Written to a temporary file, then renamed.
 /// Errors: usage (another ending), output.
 Status save_atlas_picture(const std::filesystem::path& path, std::span<const Chart> charts,

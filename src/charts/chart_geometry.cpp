@@ -75,6 +75,16 @@ void measure_extent(Chart& chart) {
   chart.max_radius = std::sqrt(farthest);
 }
 
+/// The outline as both layers of a sweep, so that "shared" measures what it covers.
+std::vector<SweepEdge> sweep_edges(const Chart& chart) {
+  std::vector<SweepEdge> edges;
+  edges.reserve(chart.outline.size());
+  for (const OutlineEdge& e : chart.outline) {
+    edges.push_back({chart.points[e.from], chart.points[e.to], {e.winding, e.winding}});
+  }
+  return edges;
+}
+
 }  // namespace
 
 Chart chart_from_triangles(std::vector<Vec2> points,
@@ -96,12 +106,7 @@ Chart chart_from_triangles(std::vector<Vec2> points,
   chart.outline = net_edges(chart, orientation);
   measure_extent(chart);
 
-  std::vector<SweepEdge> edges;
-  edges.reserve(chart.outline.size());
-  for (const OutlineEdge& e : chart.outline) {
-    edges.push_back({chart.points[e.from], chart.points[e.to], {e.winding, 0}});
-  }
-  const double overlap = sweep_area(edges, Measure::repeated, chart.box);
+  const double overlap = sweep_area(sweep_edges(chart), Measure::repeated, chart.box);
   if (overlap > kHair * orientation.absolute_area) chart.overlap = overlap;
   chart.area = orientation.absolute_area - chart.overlap;
   return chart;
@@ -109,7 +114,9 @@ Chart chart_from_triangles(std::vector<Vec2> points,
 
 Result<Chart> chart_from_loops(std::span<const std::vector<Vec2>> loops) {
   Chart chart;
-  double area = 0;
+  if (loops.empty()) {
+    return Error{ErrorKind::input, "loops", "there are none", "give a chart at least one loop"};
+  }
   for (std::size_t loop = 0; loop < loops.size(); ++loop) {
     const std::vector<Vec2>& points = loops[loop];
     if (points.size() < 3) {
@@ -129,10 +136,12 @@ Result<Chart> chart_from_loops(std::span<const std::vector<Vec2>> loops) {
       chart.points.push_back(p);
       chart.box.add(p);
       chart.outline.push_back({first + i, first + (i + 1) % count, 1});
-      area += 0.5 * cross(p - points[0], points[(i + 1) % count] - points[0]);
     }
   }
-  chart.area = std::abs(area);
+  const std::vector<SweepEdge> edges = sweep_edges(chart);
+  chart.area = sweep_area(edges, Measure::shared, chart.box);
+  const double overlap = sweep_area(edges, Measure::repeated, chart.box);
+  if (overlap > kHair * chart.area) chart.overlap = overlap;
   measure_extent(chart);
   return chart;
 }

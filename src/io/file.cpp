@@ -11,6 +11,7 @@
 #include <exception>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace wrapatlas {
 namespace {
@@ -63,6 +64,26 @@ Status read_all(int descriptor, std::size_t expected, const std::filesystem::pat
   return Done{};
 }
 
+Error cannot_write(const std::filesystem::path& path) {
+  return system_error(ErrorKind::output, path, "cannot write",
+                      "free disk space or write elsewhere");
+}
+
+/// A finished file under its temporary name.
+struct StagedFile {
+  std::string temporary;
+  std::filesystem::path path;
+};
+thread_local bool staging = false;
+thread_local std::vector<StagedFile> staged;
+
+Status move_into_place(const StagedFile& file) {
+  if (::rename(file.temporary.c_str(), file.path.c_str()) == 0) return Done{};
+  Error error = cannot_write(file.path);
+  ::unlink(file.temporary.c_str());
+  return error;
+}
+
 }  // namespace
 
 Result<std::string> read_file(const std::filesystem::path& path) {
@@ -103,22 +124,55 @@ Status write_file(const std::filesystem::path& path,
     return system_error(ErrorKind::output, path, "cannot write",
                         "check that the folder exists and is writable");
   }
-  Status written = produce(
-      [descriptor, &path](std::string_view bytes) { return write_all(descriptor, bytes, path); });
+  Status written = Done{};
+  try {
+    written = produce(
+        [descriptor, &path](std::string_view bytes) { return write_all(descriptor, bytes, path); });
+  } catch (const std::exception&) {  // bad_alloc, mostly
+    written = Error{ErrorKind::output, path.string(), "out of memory while writing",
+                    "use a machine with more memory"};
+  }
   if (in_place) {
     ::close(descriptor);
     return written;
   }
-  const bool kept = written && ::fsync(descriptor) == 0;
-  const int keep_errno = errno;
-  const bool closed = ::close(descriptor) == 0;
-  if (kept && closed && ::rename(temporary.c_str(), path.c_str()) == 0) return Done{};
-  if (!kept) errno = keep_errno;
-  Error error = written ? system_error(ErrorKind::output, path, "cannot write",
-                                       "free disk space or write elsewhere")
-                        : written.error();
-  ::unlink(temporary.c_str());
-  return error;
+  if (written && ::fsync(descriptor) != 0) written = cannot_write(path);
+  if (::close(descriptor) != 0 && written) written = cannot_write(path);
+  if (!written) {
+    ::unlink(temporary.c_str());
+    return written;
+  }
+  if (staging) {
+    staged.push_back({std::move(temporary), path});
+    return Done{};
+  }
+  return move_into_place({std::move(temporary), path});
+}
+
+OutputTransaction::OutputTransaction() : outermost_(!staging) { staging = true; }
+
+OutputTransaction::~OutputTransaction() {
+  if (!outermost_) return;
+  for (const StagedFile& file : staged) ::unlink(file.temporary.c_str());
+  staged.clear();
+  staging = false;
+}
+
+Status OutputTransaction::commit() {
+  if (!outermost_) return Done{};
+  // A rename fails where a folder has the name; that is known before the first one is made.
+  for (const StagedFile& file : staged) {
+    if (std::filesystem::is_directory(file.path)) {
+      errno = EISDIR;
+      return cannot_write(file.path);
+    }
+  }
+  while (!staged.empty()) {
+    const StagedFile file = staged.front();
+    staged.erase(staged.begin());
+    if (Status moved = move_into_place(file); !moved) return moved;
+  }
+  return Done{};
 }
 
 }  // namespace wrapatlas

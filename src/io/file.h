@@ -26,4 +26,19 @@ using PutBytes = std::function<Status(std::string_view)>;
 Status write_file(const std::filesystem::path& path,
                   const std::function<Status(const PutBytes&)>& produce);
 
+/// Several files that appear together or not at all. While one lives on a thread, write_file on
+/// that thread only prepares its file; commit() renames all of them into place, and destruction
+/// without it removes them. One begun within another joins it: its commit() does nothing.
+class OutputTransaction {
+ public:
+  OutputTransaction();
+  ~OutputTransaction();
+  OutputTransaction(const OutputTransaction&) = delete;
+  OutputTransaction& operator=(const OutputTransaction&) = delete;
+  Status commit();
+
+ private:
+  bool outermost_;
+};
+
 }  // namespace wrapatlas

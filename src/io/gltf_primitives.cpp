@@ -225,7 +225,7 @@ class Reader {
 
 Status read_primitives(GltfContents& contents, Mesh& mesh, std::vector<std::string>& remarks) {
   Reader reader(contents, mesh);
-  const Status read = reader.read_all();
+  Status read = reader.read_all();
   if (read) reader.remark(remarks);
   return read;
 }

@@ -68,6 +68,19 @@ Status write_new(FileFormat format, const std::filesystem::path& path, const Mes
                "write .obj, .ply, .gltf or .glb"};
 }
 
+/// The model in `format`, as save_model promises.
+Status write_model(const Model& model, const AtlasMesh& atlas, const std::filesystem::path& path,
+                   FileFormat format) {
+  if (Status fits = check_fit(model.mesh, atlas); !fits) return fits;
+  const auto is_gltf = [](FileFormat f) { return f == FileFormat::gltf || f == FileFormat::glb; };
+  const bool same_kind = format == model.format || (is_gltf(format) && is_gltf(model.format));
+  if (same_kind && model.source) return model.source->save(path, model.mesh, atlas);
+  if (counts_v_downward(format) != model.v_points_down) {
+    return write_new(format, path, model.mesh, turn_upside_down(atlas));
+  }
+  return write_new(format, path, model.mesh, atlas);
+}
+
 }  // namespace
 
 Result<FileFormat> format_from_path(const std::filesystem::path& path) {
@@ -109,14 +122,9 @@ Result<Model> load_model_bytes(std::string bytes, FileFormat format, std::string
 Status save_model(const Model& model, const AtlasMesh& atlas, const std::filesystem::path& path) {
   const Result<FileFormat> format = format_from_path(path);
   if (!format) return format.error();
-  if (Status fits = check_fit(model.mesh, atlas); !fits) return fits;
-  const auto is_gltf = [](FileFormat f) { return f == FileFormat::gltf || f == FileFormat::glb; };
-  const bool same_kind = *format == model.format || (is_gltf(*format) && is_gltf(model.format));
-  if (same_kind && model.source) return model.source->save(path, model.mesh, atlas);
-  if (counts_v_downward(*format) != model.v_points_down) {
-    return write_new(*format, path, model.mesh, turn_upside_down(atlas));
-  }
-  return write_new(*format, path, model.mesh, atlas);
+  OutputTransaction files;  // a .gltf and its .bin
+  if (Status written = write_model(model, atlas, path, *format); !written) return written;
+  return files.commit();
 }
 
 }  // namespace wrapatlas

@@ -82,9 +82,4 @@ void Board::add(const ChartRaster& chart, int x, int y) {
   add_lanes(columns_, chart.columns.bits, x, y);
 }
 
-void Board::clear() {
-  std::fill(columns_.bits.begin(), columns_.bits.end(), 0);
-  std::fill(rows_.bits.begin(), rows_.bits.end(), 0);
-}
-
 }  // namespace wrapatlas

@@ -35,8 +35,6 @@ class Board {
   /// Marks the chart's cells. Precondition: !collides(chart, x, y).
   void add(const ChartRaster& chart, int x, int y);
 
-  void clear();
-
  private:
   Wrap wrap_;
   BitLanes columns_, rows_;

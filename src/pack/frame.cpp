@@ -13,6 +13,10 @@ struct AxisGrid {
   double cell = 0, origin = 0;
 };
 
+int cell_count(double cells) {
+  return static_cast<int>(std::clamp(cells, 0.0, kMaxGridSide + 1.0));
+}
+
 /// Blocks are cells of a whole number of blocks each, so that no two charts share a block.
 AxisGrid block_axis(int length, bool wrap, double inset, int block, int blocks_per_cell) {
   AxisGrid axis;
@@ -30,13 +34,13 @@ AxisGrid block_axis(int length, bool wrap, double inset, int block, int blocks_p
 AxisGrid free_axis(int length, bool wrap, double inset, double cell) {
   AxisGrid axis;
   if (wrap) {
-    axis.cells = std::max(1, static_cast<int>(std::lround(length / cell)));
+    axis.cells = std::max(1, cell_count(std::round(length / cell)));
     axis.cell = double(length) / axis.cells;
     return axis;
   }
   axis.cell = cell;
   axis.origin = inset;
-  axis.cells = static_cast<int>(std::floor((length - 2 * inset) / cell + 1e-9));
+  axis.cells = cell_count(std::floor((length - 2 * inset) / cell + 1e-9));
   return axis;
 }
 
@@ -74,6 +78,12 @@ Result<Frame> make_frame(int texture_width, int texture_height, double cell,
   } else {
     x = free_axis(texture_width, wraps_u(options.wrap), inset, cell);
     y = free_axis(texture_height, wraps_v(options.wrap), inset, cell);
+  }
+  if (std::max(x.cells, y.cells) > kMaxGridSide) {
+    return Error{
+        ErrorKind::usage, fmt::format("{} x {} texels", texture_width, texture_height),
+        "the search grid would be too fine",
+        fmt::format("lower --grid or --padding: {} cells a side are the limit", kMaxGridSide)};
   }
   if (x.cells < 1 || y.cells < 1) {
     return Error{ErrorKind::usage, fmt::format("{} x {} texels", texture_width, texture_height),

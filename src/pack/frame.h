@@ -25,6 +25,9 @@ struct Frame {
 Result<Frame> make_frame(int texture_width, int texture_height, double cell,
                          const PackOptions& options);
 
+/// Cells along a side: positions up to twice that must fit 16 bits (see slide.h).
+inline constexpr int kMaxGridSide = 16383;
+
 /// Texels of distance added to the padding so that it still holds after UVs are rounded to float.
 inline constexpr double kPaddingSlack = 1.0 / 128;
 

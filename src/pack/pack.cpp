@@ -37,8 +37,13 @@ Status check_options(const PackOptions& options) {
     return usage(fmt::format("resolution {} x {} is out of range", options.width, options.height),
                  "use 1 to 65536 texels a side");
   }
-  if (!(options.padding >= 0 && options.padding <= 4096) || !(options.margin <= 65536)) {
-    return usage("padding or margin is out of range", "use 0 to 4096 texels");
+  if (!(options.padding >= 0 && options.padding <= 4096)) {
+    return usage(fmt::format("a padding of {} texels is out of range", options.padding),
+                 "use 0 to 4096");
+  }
+  if (!(options.margin <= 65536)) {
+    return usage(fmt::format("a margin of {} texels is out of range", options.margin),
+                 "use 0 to 65536");
   }
   if (options.rotations < 1 || options.rotations > 3600) {
     return usage(fmt::format("{} rotations are out of range", options.rotations), "use 1 to 3600");
@@ -48,12 +53,15 @@ Status check_options(const PackOptions& options) {
                  fmt::format("use 1 to {}, or 0 to let the program choose", kMaxRasterSide));
   }
   if (options.block < 1 || options.block > 64) {
-    return usage("block size is out of range", "use 1 to 64 texels");
+    return usage(fmt::format("a block of {} texels is out of range", options.block), "use 1 to 64");
   }
   if (!(options.start_upper > 0 && options.start_upper <= 1)) {
     return usage("the upper end of the scale search must lie in (0, 1]", "the paper uses 0.9");
   }
-  if (!(options.lambda >= 0)) return usage("lambda must not be negative", "the paper uses 1.1");
+  if (!(options.lambda >= 0 && options.lambda <= 1e6)) {
+    return usage(fmt::format("a lambda of {} is out of range", options.lambda),
+                 "use 0 to 1e6; the paper uses 1.1");
+  }
   if (options.method != Method::modulo && options.wrap != Wrap::none) {
     return usage("only the modulo packer can wrap", "use --wrap none with this method");
   }
@@ -97,7 +105,7 @@ class ProgressMeter {
 
   [[nodiscard]] bool stopped() const { return stopped_; }
   [[nodiscard]] bool poll() {
-    if (report_ && !stopped_) report(false);
+    if (report_ && !stopped_) report();
     return stopped_;
   }
   /// A search takes about twelve attempts; the estimate never runs ahead of the search.
@@ -108,9 +116,9 @@ class ProgressMeter {
   }
 
  private:
-  void report(bool force) {
+  void report() {
     const std::unique_lock lock(mutex_, std::try_to_lock);
-    if (!lock || (!force && seconds_since(last_) < 0.05)) return;
+    if (!lock || seconds_since(last_) < 0.05) return;
     last_ = Clock::now();
     if (!report_({std::min(work_ / searches_, 1.0), best_})) stopped_ = true;
   }
@@ -158,7 +166,8 @@ class Packer {
         [&](double factor) {
           auto rasters = rasters_at(search.frame, factor);
           ++search.packings;
-          const bool success = attempt(search.frame, *rasters, meter, placements);
+          const bool success =
+              !hopeless(search.frame, factor) && attempt(search.frame, *rasters, meter, placements);
           if (success && factor > search.factor) {
             search.factor = factor;
             search.rasters = std::move(rasters);
@@ -184,6 +193,14 @@ class Packer {
     raster_scale.growth = frame.growth;
     raster_scale.coverage = options_.coverage;
     return cache_.at(raster_scale, kLongestInDomains * std::max(frame.width, frame.height));
+  }
+
+  /// Each grown chart covers at least its area and a disc of half the padding.
+  [[nodiscard]] bool hopeless(const Frame& frame, double factor) const {
+    if (options_.coverage != Coverage::conservative) return false;
+    const double disc = std::numbers::pi * options_.padding * options_.padding / 4;
+    const double charts = scale(factor) * scale(factor) * area_;
+    return charts + disc * static_cast<double>(by_area_.size()) > frame.texels();
   }
 
   bool attempt(const Frame& frame, ScaleRasters& rasters, ProgressMeter& meter,
@@ -240,8 +257,11 @@ Result<std::vector<Frame>> make_frames(const PackOptions& options, std::size_t c
   }
   const double side = std::sqrt(double(options.width) * options.height);
   // Textures whose sides are whole cells pack best; a cell of whole texels makes both whole.
-  const double unit = std::max(1.0, std::round(cell / options.block) * options.block);
-  for (int k = -15; k <= 15; ++k) {
+  const double block = options.block;
+  const double unit = std::max(block, std::round(cell / block) * block);
+  // From the square outwards, so that a search cut short has tried what is likely to be good.
+  for (int i = 0; i < 31; ++i) {
+    const int k = i % 2 == 1 ? (i + 1) / 2 : -i / 2;
     const auto texels = [&](double exponent) {
       return static_cast<int>(std::max(1.0, std::round(side / unit * std::exp2(exponent))) * unit);
     };

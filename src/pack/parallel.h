@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
+#include <exception>
+#include <mutex>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -16,20 +19,33 @@ inline int thread_count(int asked) {
 }
 
 /// Runs job(0) ... job(count - 1), each once, on up to `threads` threads, the caller's among them.
-/// Jobs start in order; job must not throw.
+/// Jobs start in order. What a job throws (memory may run out) ends the rest, and is thrown again
+/// to the caller once all threads have come to rest.
 template <typename Job>
 void parallel_for(std::size_t count, int threads, Job job) {
   std::atomic<std::size_t> next{0};
+  std::mutex mutex;
+  std::exception_ptr failure;
   const auto work = [&] {
-    for (std::size_t i = next++; i < count; i = next++) job(i);
+    try {
+      for (std::size_t i = next++; i < count; i = next++) job(i);
+    } catch (...) {
+      next = count;
+      const std::lock_guard lock(mutex);
+      if (!failure) failure = std::current_exception();
+    }
   };
-  const std::size_t helpers =
-      std::min(count, static_cast<std::size_t>(std::max(threads, 1))) - (count > 0 ? 1 : 0);
   std::vector<std::thread> pool;
-  pool.reserve(helpers);
-  for (std::size_t i = 0; i < helpers; ++i) pool.emplace_back(work);
+  const std::size_t wanted = std::min(count, static_cast<std::size_t>(std::max(threads, 1)));
+  try {
+    pool.reserve(wanted);
+    while (pool.size() + 1 < wanted) pool.emplace_back(work);
+  } catch (const std::system_error&) {
+    // The system gives no more threads: those there are do the work.
+  }
   work();
   for (std::thread& thread : pool) thread.join();
+  if (failure) std::rethrow_exception(failure);
 }
 
 }  // namespace wrapatlas

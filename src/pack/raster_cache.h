@@ -49,7 +49,6 @@ class RasterCache {
 
   std::shared_ptr<ScaleRasters> at(const RasterScale& scale, int max_side);
   [[nodiscard]] double seconds();
-  [[nodiscard]] std::size_t chart_count() const { return shapes_.size(); }
 
  private:
   std::vector<RasterShape> shapes_;

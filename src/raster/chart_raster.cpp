@@ -172,7 +172,7 @@ void crop(BitLanes& rows, Vec2& offset) {
 RasterShape make_raster_shape(const Chart& chart) {
   RasterShape shape;
   shape.simple = chart.overlap == 0 && chart.against_grain.empty();
-  shape.centre = 0.5 * (chart.box.min + chart.box.max);
+  if (!chart.box.empty()) shape.centre = 0.5 * (chart.box.min + chart.box.max);
   std::vector<std::uint32_t> renumbered(chart.points.size(), kNone);
   const auto use = [&](std::uint32_t point) {
     if (renumbered[point] == kNone) {

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <atomic>
+#include <exception>
+#include <mutex>
 #include <system_error>
 #include <thread>
 
@@ -208,11 +210,19 @@ Result<std::vector<std::unique_ptr<Visitor>>> divide(
   for (std::size_t i = 0; i < shares.size(); ++i) visitors.push_back(make_visitor());
 
   std::atomic<std::size_t> next{0};
+  std::mutex mutex;
+  std::exception_ptr failure;  // memory may run out
   const auto work = [&] {
-    Divider divider(space);
-    for (std::size_t i = next++; i < shares.size(); i = next++) {
-      walk(divider, shares[i], *visitors[i]);
-      shares[i] = {};
+    try {
+      Divider divider(space);
+      for (std::size_t i = next++; i < shares.size(); i = next++) {
+        walk(divider, shares[i], *visitors[i]);
+        shares[i] = {};
+      }
+    } catch (...) {
+      next = shares.size();
+      const std::lock_guard lock(mutex);
+      if (!failure) failure = std::current_exception();
     }
   };
   std::vector<std::thread> helpers;
@@ -225,6 +235,7 @@ Result<std::vector<std::unique_ptr<Visitor>>> divide(
   }
   work();
   for (std::thread& helper : helpers) helper.join();
+  if (failure) std::rethrow_exception(failure);
   return visitors;
 }
 

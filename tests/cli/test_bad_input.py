@@ -451,10 +451,11 @@ class AllOutputsOrNone(support.CommandTest):
 
     def test_gltf_and_its_bin(self):
         """There is room for the .bin and not for the .gltf; the older .bin must stay as it is."""
-        self.pack("a.obj", "b.gltf")
+        self.pack("a.obj", "a.glb")
+        self.pack("a.glb", "b.gltf")
         self.assertLess(self.path("b.bin").stat().st_size, 400)
         self.assertGreater(self.path("b.gltf").stat().st_size, 400)
-        self.refuse(3, ("b.gltf", "cannot write"), "pack", "a.obj", "-o", "b.gltf", "--wrap",
+        self.refuse(3, ("b.gltf", "cannot write"), "pack", "a.glb", "-o", "b.gltf", "--wrap",
                     "none", "--quiet", *quick(), **file_size_limit(400))
 
     def test_gltf_in_the_way_of_a_folder(self):

@@ -70,5 +70,27 @@ TEST_F(FileTest, FolderIsNotAFile) {
   EXPECT_EQ(read.error().kind, ErrorKind::input);
 }
 
+TEST_F(FileTest, TransactionIsAllOrNothing) {
+  ASSERT_TRUE(write_file(folder_ / "a", "old"));
+  {
+    OutputTransaction files;
+    ASSERT_TRUE(write_file(folder_ / "a", "new"));
+    ASSERT_TRUE(write_file(folder_ / "b", "new"));
+    OutputTransaction inner;
+    EXPECT_TRUE(inner.commit());
+    EXPECT_EQ(*read_file(folder_ / "a"), "old");
+    EXPECT_FALSE(fs::exists(folder_ / "b"));
+  }
+  EXPECT_EQ(*read_file(folder_ / "a"), "old");
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), 1);
+  OutputTransaction files;
+  ASSERT_TRUE(write_file(folder_ / "a", "new"));
+  ASSERT_TRUE(write_file(folder_ / "b", "new"));
+  ASSERT_TRUE(files.commit());
+  EXPECT_EQ(*read_file(folder_ / "a"), "new");
+  EXPECT_EQ(*read_file(folder_ / "b"), "new");
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), 2);
+}
+
 }  // namespace
 }  // namespace wrapatlas

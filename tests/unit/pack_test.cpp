@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <cmath>
+#include <new>
 
 #include "pack/frame.h"
 #include "pack/parallel.h"
@@ -160,6 +162,34 @@ TEST(Pack, BadOptionsAreUsageErrors) {
   EXPECT_FALSE(pack({}, options_for(Method::modulo, Wrap::uv)));
 }
 
+TEST(Pack, LimitsOfTheGridHold) {
+  const std::vector<Chart> charts{test::rectangle(1, 1)};
+  PackOptions options = options_for(Method::modulo, Wrap::uv);
+  options.width = options.height = 8192;
+  options.grid = 8192;
+  options.search_aspect = true;
+  EXPECT_EQ(pack(charts, options).error().kind, ErrorKind::usage);
+
+  options = options_for(Method::modulo, Wrap::none);
+  options.width = options.height = 1;
+  options.padding = 4096;
+  options.margin = 0;
+  EXPECT_FALSE(pack(charts, options));
+}
+
+TEST(Pack, AspectSearchKeepsToBlocksLargerThanCells) {
+  PackOptions options = options_for(Method::modulo, Wrap::uv);
+  options.search_aspect = true;
+  options.block = 16;
+  options.padding = 0;
+  const std::vector<Chart> charts = test::mixed_charts(4, 6);
+  const auto packing = pack(charts, options);
+  ASSERT_TRUE(packing) << packing.error().message();
+  EXPECT_EQ(packing->width % 16, 0);
+  EXPECT_EQ(packing->height % 16, 0);
+  EXPECT_EQ(test::check_blocks(charts, *packing, 16), "");
+}
+
 TEST(ScaleSearch, FollowsThePaper) {
   // Everything up to 0.5 succeeds: the factors tried are those of section 2.2.3 by hand.
   std::vector<double> tried;
@@ -197,6 +227,19 @@ TEST(ParallelFor, RunsEachJobOnce) {
     for (const auto& count : runs) ASSERT_EQ(count, 1);
   }
   parallel_for(0, 4, [](std::size_t) { FAIL(); });
+}
+
+TEST(ParallelFor, PassesOnWhatAJobThrows) {
+  for (const int threads : {1, 3}) {
+    std::atomic<int> runs{0};
+    EXPECT_THROW(parallel_for(1000, threads,
+                              [&](std::size_t i) {
+                                ++runs;
+                                if (i == 10) throw std::bad_alloc();
+                              }),
+                 std::bad_alloc);
+    EXPECT_LT(runs, 1000);
+  }
 }
 
 }  // namespace

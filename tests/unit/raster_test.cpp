@@ -213,6 +213,25 @@ TEST(Raster, TinyChartStillCoversACell) {
   EXPECT_EQ(raster.cells, 1);
 }
 
+TEST(Raster, LoopsFillByNonZeroWinding) {
+  // A pentagram winds twice around its middle, which must not stay free.
+  std::vector<Vec2> star;
+  for (int i = 0; i < 5; ++i) {
+    const double angle = 4 * std::numbers::pi * i / 5;
+    star.push_back({std::cos(angle), std::sin(angle)});
+  }
+  const std::vector<std::vector<Vec2>> loops{star};
+  const auto chart = chart_from_loops(loops);
+  ASSERT_TRUE(chart);
+  const ChartRaster raster =
+      rasterize(make_raster_shape(*chart), {{40, 40}, 0, Coverage::center}, 0);
+  const Vec2 middle = raster.offset;
+  EXPECT_TRUE(raster.rows.bits.test(static_cast<int>(middle.y), static_cast<int>(middle.x)));
+  // Five points of a pentagram of radius 1 and its pentagon, once.
+  EXPECT_NEAR(chart->area, 1.1226, 1e-3);
+  EXPECT_NEAR(static_cast<double>(raster.cells) / 1600, chart->area, 0.02);
+}
+
 TEST(Raster, TooLongIsNotMade) {
   const ChartRaster raster =
       rasterize(make_raster_shape(test::rectangle(1e9, 1)), {{1, 1}, 0, Coverage::center}, 0, 4096);

@@ -119,27 +119,31 @@ class Saver {
       return Error{ErrorKind::output, path_.string(), "a GLB cannot be longer than 4 GiB",
                    "write a .gltf"};
     }
-    std::string bytes;
-    bytes.reserve(total);
-    bytes += "glTF";
-    add_little_endian(bytes, 2);
-    add_little_endian(bytes, total);
-    add_little_endian(bytes, json.size());
-    bytes += "JSON";
-    bytes += json;
+    std::string head = "glTF";
+    add_little_endian(head, 2);
+    add_little_endian(head, total);
+    add_little_endian(head, json.size());
+    head += "JSON";
+    head += json;
     if (has_bin) {
-      add_little_endian(bytes, bin_size);
-      bytes += std::string_view("BIN\0", 4);
-      const std::size_t begin = bytes.size();
-      edit_.buffers()[0].append_to(bytes);
-      bytes.resize(begin + bin_size, '\0');
+      add_little_endian(head, bin_size);
+      head += std::string_view("BIN\0", 4);
     }
+    std::string tail(has_bin ? bin_size - edit_.buffers()[0].size : 0, '\0');
     for (const GlbChunk& chunk : file_.other_chunks) {
-      add_little_endian(bytes, chunk.bytes.size());
-      add_little_endian(bytes, chunk.type);
-      bytes += chunk.bytes;
+      add_little_endian(tail, chunk.bytes.size());
+      add_little_endian(tail, chunk.type);
+      tail += chunk.bytes;
     }
-    return write_file(path_, bytes);
+    return write_file(path_, [&](const PutBytes& put) {
+      Status written = put(head);
+      if (has_bin) {
+        for (const std::string_view piece : edit_.buffers()[0].pieces) {
+          if (written) written = put(piece);
+        }
+      }
+      return written ? put(tail) : written;
+    });
   }
 
   const GltfFile& file_;

@@ -70,10 +70,10 @@ std::string base64_encode(std::string_view bytes) {
 
 std::optional<std::string> base64_decode(std::string_view text) {
   static const auto values = [] {
-    std::array<std::int8_t, 256> table{};
+    std::array<std::int16_t, 256> table{};
     table.fill(-1);
     for (std::size_t i = 0; i < kDigits.size(); ++i) {
-      table[static_cast<unsigned char>(kDigits[i])] = static_cast<std::int8_t>(i);
+      table[static_cast<unsigned char>(kDigits[i])] = static_cast<std::int16_t>(i);
     }
     return table;
   }();

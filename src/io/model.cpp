@@ -37,7 +37,7 @@ Result<Model> read(std::string bytes, FileFormat format, std::string_view name,
     case FileFormat::obj:
       return read_obj(std::move(bytes), name);
     case FileFormat::off:
-      return read_off(std::move(bytes), name);
+      return read_off(bytes, name);
     case FileFormat::ply:
       return read_ply(std::move(bytes), name);
     case FileFormat::stl:

@@ -36,12 +36,15 @@ class ObjWords {
   std::string_view next() {
     while (at_ != end_ && is_gap(at_)) ++at_;
     const char* begin = at_;
-    if (at_ != end_ && *at_ == '#') return {begin, 0};
+    if (at_ != end_ && *at_ == '#') return word(begin, begin);
     while (at_ != end_ && !is_gap(at_)) ++at_;
-    return {begin, static_cast<std::size_t>(at_ - begin)};
+    return word(begin, at_);
   }
 
  private:
+  static std::string_view word(const char* begin, const char* end) {
+    return {begin, static_cast<std::size_t>(end - begin)};
+  }
   [[nodiscard]] bool is_gap(const char* c) const {
     if (*c > '\\') return false;
     return *c == ' ' || (*c >= '\t' && *c <= '\r') || (*c == '\\' && continues(c + 1));

@@ -160,7 +160,7 @@ class OffReader {
 
 }  // namespace
 
-Result<Model> read_off(std::string bytes, std::string_view name) {
+Result<Model> read_off(const std::string& bytes, std::string_view name) {
   return OffReader(bytes, name).read();
 }
 

@@ -102,7 +102,8 @@ bool PlyCursor::read_length(const PlyProperty& list, std::size_t& length) {
   if (!read(list.count_type, value) || !(value >= 0) || value != std::floor(value)) return false;
   const std::size_t left = is_text() ? words_.bytes_left() : bytes_.size() - at_;
   const std::size_t each = is_text() ? 2 : ply_bytes(list.type);
-  if (value > static_cast<double>(left / each)) return false;
+  const std::size_t most = left / each;
+  if (value > static_cast<double>(most)) return false;
   length = static_cast<std::size_t>(value);
   return true;
 }

@@ -19,7 +19,7 @@ class TextWords {
   /// The next word of this line; empty if there is none.
   std::string_view next_on_line() {
     skip_gap(true);
-    return at_ != end_ && *at_ == '\n' ? std::string_view(at_, 0) : take();
+    return at_ != end_ && *at_ == '\n' ? std::string_view() : take();
   }
   void skip_line() {
     while (at_ != end_ && *at_ != '\n') ++at_;

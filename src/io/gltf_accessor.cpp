@@ -98,18 +98,44 @@ Status open_sparse(const GltfFile& file, const Json& sparse, GltfAccessor& acces
   return Done{};
 }
 
-template <typename Point>
-Status read_all(const GltfFile& file, const GltfAccessor& accessor, std::vector<Point>& points) {
-  const std::size_t total = points.size() + accessor.count;
-  if (total > points.capacity()) points.reserve(std::max(total, points.capacity() * 2));
+/// Calls `work` with a value of the C++ type of the component, so that loops over elements are
+/// compiled for each type.
+template <typename Work>
+auto with_type_of(GltfComponent component, const Work& work) {
+  switch (component) {
+    case GltfComponent::i8:
+      return work(std::int8_t{});
+    case GltfComponent::u8:
+      return work(std::uint8_t{});
+    case GltfComponent::i16:
+      return work(std::int16_t{});
+    case GltfComponent::u16:
+      return work(std::uint16_t{});
+    case GltfComponent::u32:
+      return work(std::uint32_t{});
+    default:
+      return work(float{});
+  }
+}
+
+template <typename T>
+double decoded(const char* bytes, bool normalized) {
+  const auto number = static_cast<double>(load<T>(bytes));
+  if (std::is_floating_point_v<T> || !normalized) return number;
+  return std::max(number / static_cast<double>(std::numeric_limits<T>::max()), -1.0);
+}
+
+template <typename T, typename Point>
+Status append_points(const GltfFile& file, const GltfAccessor& accessor,
+                     std::vector<Point>& points) {
   for (std::size_t i = 0; i < accessor.count; ++i) {
     const char* element = accessor.element(i);
     Point point{};
-    point.x = accessor.value(element, 0);
-    point.y = accessor.value(element, 1);
+    point.x = decoded<T>(element, accessor.normalized);
+    point.y = decoded<T>(element + sizeof(T), accessor.normalized);
     bool usable = std::abs(point.x) < 1e30 && std::abs(point.y) < 1e30;
     if constexpr (std::is_same_v<Point, Vec3>) {
-      point.z = accessor.value(element, 2);
+      point.z = decoded<T>(element + 2 * sizeof(T), accessor.normalized);
       usable = usable && std::abs(point.z) < 1e30;
     }
     if (!usable) {
@@ -120,6 +146,15 @@ Status read_all(const GltfFile& file, const GltfAccessor& accessor, std::vector<
     points.push_back(point);
   }
   return Done{};
+}
+
+template <typename Point>
+Status read_all(const GltfFile& file, const GltfAccessor& accessor, std::vector<Point>& points) {
+  const std::size_t total = points.size() + accessor.count;
+  if (total > points.capacity()) points.reserve(std::max(total, points.capacity() * 2));
+  return with_type_of(accessor.component, [&](auto type) {
+    return append_points<decltype(type)>(file, accessor, points);
+  });
 }
 
 }  // namespace
@@ -158,27 +193,8 @@ std::string accessor_place(std::uint64_t index) { return fmt::format("accessor {
 
 double GltfAccessor::value(const char* element, std::size_t c) const {
   const char* at = element + c * component_size(component);
-  double number = 0;
-  switch (component) {
-    case GltfComponent::i8:
-      number = load<std::int8_t>(at);
-      break;
-    case GltfComponent::u8:
-      number = load<std::uint8_t>(at);
-      break;
-    case GltfComponent::i16:
-      number = load<std::int16_t>(at);
-      break;
-    case GltfComponent::u16:
-      number = load<std::uint16_t>(at);
-      break;
-    case GltfComponent::u32:
-      number = load<std::uint32_t>(at);
-      break;
-    case GltfComponent::f32:
-      return static_cast<double>(load<float>(at));
-  }
-  return normalized ? std::max(number / component_one(component), -1.0) : number;
+  return with_type_of(component,
+                      [&](auto type) { return decoded<decltype(type)>(at, normalized); });
 }
 
 void GltfAccessor::store(char* element, std::size_t c, double value) const {
@@ -288,8 +304,20 @@ Status read_points(const GltfFile& file, const GltfAccessor& accessor, std::vect
   return read_all(file, accessor, points);
 }
 
-Result<std::vector<std::uint32_t>> read_indices(const GltfFile& file, const GltfAccessor& accessor,
-                                                std::size_t vertex_count) {
+void read_floats(const GltfAccessor& accessor, std::size_t components, float* out) {
+  with_type_of(accessor.component, [&](auto type) {
+    for (std::size_t i = 0; i < accessor.count; ++i) {
+      const char* element = accessor.element(i);
+      for (std::size_t c = 0; c < components; ++c) {
+        *out++ = static_cast<float>(
+            decoded<decltype(type)>(element + c * sizeof type, accessor.normalized));
+      }
+    }
+  });
+}
+
+Status read_indices(const GltfFile& file, const GltfAccessor& accessor, std::size_t vertex_count,
+                    std::uint32_t first_vertex, std::vector<std::uint32_t>& indices) {
   const std::string place = accessor_place(accessor.index);
   const bool is_unsigned = accessor.component == GltfComponent::u8 ||
                            accessor.component == GltfComponent::u16 ||
@@ -297,15 +325,21 @@ Result<std::vector<std::uint32_t>> read_indices(const GltfFile& file, const Gltf
   if (!is_unsigned || accessor.components != 1 || accessor.normalized) {
     return file.error(place, "it holds indices, but its type is not for them");
   }
-  std::vector<std::uint32_t> indices(accessor.count);
-  for (std::size_t i = 0; i < accessor.count; ++i) {
-    indices[i] = load_unsigned(accessor.element(i), accessor.element_size);
-    if (indices[i] >= vertex_count) {
-      return file.error(place,
-                        fmt::format("index {} is vertex {} of {}", i, indices[i], vertex_count));
+  const std::size_t begin = indices.size();
+  indices.resize(begin + accessor.count);
+  const auto append = [&](auto type) -> Status {
+    for (std::size_t i = 0; i < accessor.count; ++i) {
+      const std::uint32_t index = load<decltype(type)>(accessor.element(i));
+      if (index >= vertex_count) {
+        return file.error(place,
+                          fmt::format("index {} is vertex {} of {}", i, index, vertex_count));
+      }
+      indices[begin + i] = first_vertex + index;
     }
-  }
-  return indices;
+    return Done{};
+  };
+  if (accessor.element_size == 1) return append(std::uint8_t{});
+  return accessor.element_size == 2 ? append(std::uint16_t{}) : append(std::uint32_t{});
 }
 
 }  // namespace wrapatlas

@@ -64,9 +64,13 @@ Result<GltfAccessor> open_accessor(const GltfFile& file, std::uint64_t index);
 Status read_points(const GltfFile& file, const GltfAccessor& accessor, std::vector<Vec3>& points);
 Status read_points(const GltfFile& file, const GltfAccessor& accessor, std::vector<Vec2>& points);
 
-/// All values of an index accessor. Error: one that is not below vertex_count.
-Result<std::vector<std::uint32_t>> read_indices(const GltfFile& file, const GltfAccessor& accessor,
-                                                std::size_t vertex_count);
+/// The first `components` values of all elements: element i's begin at out[i * components].
+void read_floats(const GltfAccessor& accessor, std::size_t components, float* out);
+
+/// Appends first_vertex + i for all values i of an index accessor. Error: one that is not below
+/// vertex_count.
+Status read_indices(const GltfFile& file, const GltfAccessor& accessor, std::size_t vertex_count,
+                    std::uint32_t first_vertex, std::vector<std::uint32_t>& indices);
 
 /// "accessor 3"
 std::string accessor_place(std::uint64_t index);

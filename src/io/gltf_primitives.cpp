@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numeric>
 
 namespace wrapatlas {
 namespace {
@@ -154,42 +155,35 @@ class Reader {
   }
 
   Status read_faces(const Json& json, std::uint64_t mode, GltfPrimitive& primitive) {
-    std::vector<std::uint32_t> indices;
-    std::size_t count = primitive.vertex_count;
+    std::optional<GltfAccessor> indices;
     if (const Json* index = find_member(json, "indices")) {
       const Result<GltfAccessor> accessor = open(*index, "indices");
       if (!accessor) return accessor.error();
-      Result<std::vector<std::uint32_t>> read =
-          read_indices(file_, *accessor, primitive.vertex_count);
-      if (!read) return read.error();
-      indices = *std::move(read);
-      count = indices.size();
+      indices = *accessor;
     }
+    const std::size_t count = indices ? indices->count : primitive.vertex_count;
     const std::size_t triangles = mode == kTriangles ? count / 3 : count < 3 ? 0 : count - 2;
     if (mesh_.corner_count() + 3 * triangles > most_) return too_much();
     if (mode == kTriangles ? count % 3 != 0 : count < 3) ++ragged_;
 
-    const auto vertex = [&](std::size_t i) {
-      return indices.empty() ? static_cast<std::uint32_t>(i) : indices[i];
-    };
     primitive.first_face = static_cast<std::uint32_t>(mesh_.face_count());
-    if (mesh_.corner_position.empty()) {
-      mesh_.corner_position.reserve(3 * triangles);
-      mesh_.corner_texcoord.reserve(3 * triangles);
-      mesh_.face_begin.reserve(triangles + 1);
-    }
-    for (std::size_t i = 0; i < triangles; ++i) {
-      if (mode == kTriangles) {
-        add_face(primitive, vertex(3 * i), vertex(3 * i + 1), vertex(3 * i + 2));
-        continue;
+    std::vector<std::uint32_t>& corners = mesh_.corner_position;
+    const std::size_t first_corner = corners.size();
+    if (mode == kTriangles) {
+      if (Status read = read_positions(indices, primitive, corners); !read) return read;
+      corners.resize(first_corner + 3 * triangles);
+    } else {
+      std::vector<std::uint32_t> strip;
+      if (Status read = read_positions(indices, primitive, strip); !read) return read;
+      for (std::size_t i = 0; i < triangles; ++i) {
+        const std::uint32_t a = strip[mode == kFan ? i + 1 : i];
+        const std::uint32_t b = strip[mode == kFan ? i + 2 : i + 1 + i % 2];
+        const std::uint32_t c = strip[mode == kFan ? 0 : i + 2 - i % 2];
+        // Strips jump by triangles without area.
+        if (a != b && b != c && c != a) corners.insert(corners.end(), {a, b, c});
       }
-      const std::uint32_t a = vertex(mode == kFan ? i + 1 : i);
-      const std::uint32_t b = vertex(mode == kFan ? i + 2 : i + 1 + i % 2);
-      const std::uint32_t c = vertex(mode == kFan ? 0 : i + 2 - i % 2);
-      // Strips jump by triangles without area.
-      if (a != b && b != c && c != a) add_face(primitive, a, b, c);
     }
-    primitive.face_count = static_cast<std::uint32_t>(mesh_.face_count()) - primitive.first_face;
+    add_faces(primitive, first_corner);
     if (!primitive.has_texcoords) {
       ++without_texcoords_;
       faces_without_texcoords_ += primitive.face_count;
@@ -197,12 +191,34 @@ class Reader {
     return Done{};
   }
 
-  void add_face(const GltfPrimitive& primitive, std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-    for (const std::uint32_t vertex : {a, b, c}) {
-      mesh_.corner_position.push_back(primitive.first_position + vertex);
-      mesh_.corner_texcoord.push_back(primitive.has_texcoords ? first_texcoord_ + vertex : kNone);
+  /// Appends the position of each index, or of each vertex if there are no indices.
+  Status read_positions(const std::optional<GltfAccessor>& indices, const GltfPrimitive& primitive,
+                        std::vector<std::uint32_t>& positions) const {
+    if (indices) {
+      return read_indices(file_, *indices, primitive.vertex_count, primitive.first_position,
+                          positions);
     }
-    mesh_.face_begin.push_back(static_cast<std::uint32_t>(mesh_.corner_position.size()));
+    positions.resize(positions.size() + primitive.vertex_count);
+    std::iota(positions.end() - primitive.vertex_count, positions.end(), primitive.first_position);
+    return Done{};
+  }
+
+  /// Makes triangles of the corners from `first_corner` on, whose positions are known.
+  void add_faces(GltfPrimitive& primitive, std::size_t first_corner) {
+    const std::size_t corners = mesh_.corner_position.size();
+    mesh_.corner_texcoord.resize(corners, kNone);
+    if (primitive.has_texcoords) {
+      const std::uint32_t shift = first_texcoord_ - primitive.first_position;  // may wrap around
+      for (std::size_t c = first_corner; c < corners; ++c) {
+        mesh_.corner_texcoord[c] = mesh_.corner_position[c] + shift;
+      }
+    }
+    const std::size_t first_face = mesh_.face_count();
+    primitive.face_count = static_cast<std::uint32_t>((corners - first_corner) / 3);
+    mesh_.face_begin.resize(first_face + primitive.face_count + 1);
+    for (std::size_t f = first_face; f < mesh_.face_count(); ++f) {
+      mesh_.face_begin[f + 1] = static_cast<std::uint32_t>(3 * (f + 1));
+    }
   }
 
   Status too_much() const {

@@ -30,7 +30,6 @@ Result<Model> read_gltf(std::string bytes, bool binary, std::string_view name,
   if (model.mesh.face_count() == 0) {
     return contents->file.error("", "it has no triangles", "export a model with faces");
   }
-  if (Status valid = validate_mesh(model.mesh); !valid) return valid.error();
   remark_on_textures(*contents, model.remarks);
   model.source = make_gltf_source(std::move(contents));
   return model;

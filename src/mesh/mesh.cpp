@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <bit>
+#include <string_view>
 #include <unordered_map>
 
 namespace wrapatlas {
@@ -12,6 +14,22 @@ bool usable(double value) { return std::abs(value) < 1e30; }  // false for NaN a
 
 Error bad_mesh(std::string where, std::string what, std::string remedy) {
   return {ErrorKind::input, std::move(where), std::move(what), std::move(remedy)};
+}
+
+/// The first i < count with bad(i), or count. Looks at many before it branches, so that compilers
+/// can test several at once.
+template <typename Bad>
+std::size_t first_bad(std::size_t count, const Bad& bad) {
+  constexpr std::size_t kBlock = 256;
+  for (std::size_t begin = 0; begin < count; begin += kBlock) {
+    const std::size_t end = std::min(count, begin + kBlock);
+    bool any = false;
+    for (std::size_t i = begin; i < end; ++i) any |= bad(i);
+    if (!any) continue;
+    while (!bad(begin)) ++begin;
+    return begin;
+  }
+  return count;
 }
 
 struct Vec3Hash {
@@ -29,42 +47,44 @@ struct Vec3Hash {
 }  // namespace
 
 Status validate_mesh(const Mesh& mesh) {
-  for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+  const auto unusable = [](std::string_view what, std::size_t i) {
+    return bad_mesh(fmt::format("{} {}", what, i), "a coordinate is not a usable number",
+                    "export the mesh again without NaN, infinite or huge values");
+  };
+  const std::size_t position = first_bad(mesh.positions.size(), [&](std::size_t i) {
     const Vec3& p = mesh.positions[i];
-    if (!usable(p.x) || !usable(p.y) || !usable(p.z)) {
-      return bad_mesh(fmt::format("vertex {}", i), "a coordinate is not a usable number",
-                      "export the mesh again without NaN, infinite or huge values");
-    }
-  }
-  for (std::size_t i = 0; i < mesh.texcoords.size(); ++i) {
-    if (!usable(mesh.texcoords[i].x) || !usable(mesh.texcoords[i].y)) {
-      return bad_mesh(fmt::format("texture coordinate {}", i),
-                      "a coordinate is not a usable number",
-                      "export the mesh again without NaN, infinite or huge values");
-    }
-  }
+    return !usable(p.x) || !usable(p.y) || !usable(p.z);
+  });
+  if (position != mesh.positions.size()) return unusable("vertex", position);
+  const std::size_t texcoord = first_bad(mesh.texcoords.size(), [&](std::size_t i) {
+    return !usable(mesh.texcoords[i].x) || !usable(mesh.texcoords[i].y);
+  });
+  if (texcoord != mesh.texcoords.size()) return unusable("texture coordinate", texcoord);
   if (mesh.face_begin.empty() || mesh.face_begin.front() != 0 ||
       mesh.face_begin.back() != mesh.corner_position.size() ||
       mesh.corner_texcoord.size() != mesh.corner_position.size()) {
     return bad_mesh("mesh", "corner arrays differ in length", "pass one entry per corner in each");
   }
-  for (std::size_t face = 0; face < mesh.face_count(); ++face) {
-    if (mesh.face_begin[face + 1] < mesh.face_begin[face] + 3) {
-      return bad_mesh(fmt::format("face {}", face), "it has fewer than three corners",
-                      "remove the face");
-    }
+  const std::size_t face = first_bad(mesh.face_count(), [&](std::size_t f) {
+    return mesh.face_begin[f + 1] < mesh.face_begin[f] + 3;
+  });
+  if (face != mesh.face_count()) {
+    return bad_mesh(fmt::format("face {}", face), "it has fewer than three corners",
+                    "remove the face");
   }
-  for (std::size_t c = 0; c < mesh.corner_count(); ++c) {
-    const bool position_ok = mesh.corner_position[c] < mesh.positions.size();
-    const bool texcoord_ok =
-        mesh.corner_texcoord[c] == kNone || mesh.corner_texcoord[c] < mesh.texcoords.size();
-    if (!position_ok || !texcoord_ok) {
-      return bad_mesh(fmt::format("corner {}", c),
-                      fmt::format("it refers to {} {} of {}", position_ok ? "UV" : "vertex",
-                                  position_ok ? mesh.corner_texcoord[c] : mesh.corner_position[c],
-                                  position_ok ? mesh.texcoords.size() : mesh.positions.size()),
-                      "export the mesh again");
-    }
+  const auto positions = mesh.positions.size(), texcoords = mesh.texcoords.size();
+  const std::size_t corner = first_bad(mesh.corner_count(), [&](std::size_t c) {
+    const std::uint32_t uv = mesh.corner_texcoord[c];
+    return (mesh.corner_position[c] >= positions) | ((uv >= texcoords) & (uv != kNone));
+  });
+  if (corner != mesh.corner_count()) {
+    const bool position_ok = mesh.corner_position[corner] < positions;
+    return bad_mesh(
+        fmt::format("corner {}", corner),
+        fmt::format("it refers to {} {} of {}", position_ok ? "UV" : "vertex",
+                    position_ok ? mesh.corner_texcoord[corner] : mesh.corner_position[corner],
+                    position_ok ? texcoords : positions),
+        "export the mesh again");
   }
   return Done{};
 }

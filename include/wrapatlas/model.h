@@ -29,7 +29,8 @@ class Model {
   /// Format-private part of a loaded file, kept to write it back.
   struct Source {
     virtual ~Source() = default;
-    /// The bytes of the file with the UVs of `atlas`; `path` names side files (.bin).
+    /// Writes the file with the UVs of `atlas`; `path` names side files (.bin). For save_model,
+    /// which has checked that the atlas belongs to the mesh.
     virtual Status save(const std::filesystem::path& path, const Mesh& mesh,
                         const AtlasMesh& atlas) const = 0;
   };

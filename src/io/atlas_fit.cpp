@@ -16,7 +16,11 @@ Error misfit(std::string where, std::string what) {
           "this atlas was made from another mesh"};
 }
 
-bool point_lies_on(const Mesh& mesh, std::uint32_t face, const AtlasMesh::CutPoint& point) {
+bool point_lies_on(const Mesh& mesh, std::uint32_t face, const AtlasMesh& atlas,
+                   std::uint32_t cut) {
+  if (cut >= atlas.cut_points.size()) return false;
+  const AtlasMesh::CutPoint& point = atlas.cut_points[cut];
+  if (point.position >= atlas.cut_position_count) return false;
   for (std::size_t i = 0; i < 3; ++i) {
     const std::uint32_t corner = point.corners[i];
     const bool lies = corner >= mesh.face_begin[face] && corner < mesh.face_begin[face + 1];
@@ -79,10 +83,9 @@ Status check_fit(const Mesh& mesh, const AtlasMesh& atlas) {
       const std::uint32_t corner = atlas.corner_source[c], cut = atlas.corner_cut[c];
       const std::uint32_t texcoord = atlas.corner_texcoord[c];
       const bool texcoord_fits = texcoord == kNone || texcoord < atlas.texcoords.size();
-      const bool corner_fits =
-          corner == kNone
-              ? cut < atlas.cut_points.size() && point_lies_on(mesh, source, atlas.cut_points[cut])
-              : corner >= mesh.face_begin[source] && corner < mesh.face_begin[source + 1];
+      const bool corner_fits = corner == kNone ? point_lies_on(mesh, source, atlas, cut)
+                                               : corner >= mesh.face_begin[source] &&
+                                                     corner < mesh.face_begin[source + 1];
       const bool kept = atlas.is_cut() || corner - mesh.face_begin[source] == c - begin;
       if (!texcoord_fits || !corner_fits || !kept) {
         return misfit(where(), "a corner is not one of its source face");

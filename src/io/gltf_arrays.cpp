@@ -23,6 +23,11 @@ std::string packed_as(const std::vector<std::uint32_t>& indices) {
   return bytes;
 }
 
+template <typename T>
+std::string_view bytes_of(const std::vector<T>& values) {
+  return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)};
+}
+
 /// One set of attributes, or one morph target, on its way to longer arrays.
 class Extender {
  public:
@@ -131,22 +136,22 @@ std::uint64_t add_indices(GltfEdit& edit, const std::vector<std::uint32_t>& indi
   GltfComponent type = smallest;
   if (vertex_count > 255 && type == GltfComponent::u8) type = GltfComponent::u16;
   if (vertex_count > 65535) type = GltfComponent::u32;
-  std::string bytes;
-  if (type == GltfComponent::u8) bytes = packed_as<std::uint8_t>(indices);
-  if (type == GltfComponent::u16) bytes = packed_as<std::uint16_t>(indices);
-  if (type == GltfComponent::u32) bytes = packed_as<std::uint32_t>(indices);
   Json json = {
       {"componentType", static_cast<int>(type)}, {"count", indices.size()}, {"type", "SCALAR"}};
-  return edit.add_accessor(std::move(json), std::move(bytes), 0, GltfTarget::indices);
+  if (type == GltfComponent::u32) {
+    return edit.add_accessor(std::move(json), bytes_of(indices), GltfTarget::indices);
+  }
+  return edit.add_accessor(std::move(json),
+                           type == GltfComponent::u8 ? packed_as<std::uint8_t>(indices)
+                                                     : packed_as<std::uint16_t>(indices),
+                           0, GltfTarget::indices);
 }
 
 std::uint64_t add_uvs(GltfEdit& edit, const std::vector<GltfUv>& uvs) {
-  std::string bytes(uvs.size() * sizeof(GltfUv), '\0');
-  std::memcpy(bytes.data(), uvs.data(), bytes.size());
   Json json = {{"componentType", static_cast<int>(GltfComponent::f32)},
                {"count", uvs.size()},
                {"type", "VEC2"}};
-  return edit.add_accessor(std::move(json), std::move(bytes), 0, GltfTarget::vertices);
+  return edit.add_accessor(std::move(json), bytes_of(uvs), GltfTarget::vertices);
 }
 
 Status write_arrays(const GltfContents& contents, const GltfPlans& plans, GltfEdit& edit) {

@@ -6,7 +6,8 @@
 
 namespace wrapatlas {
 
-/// Adds the accessors of all layers and points the planned primitives to them.
+/// Adds the accessors of all layers and points the planned primitives to them. `edit` borrows UVs
+/// and indices from `plans`, and from the vectors given to the functions below.
 Status write_arrays(const GltfContents& contents, const GltfPlans& plans, GltfEdit& edit);
 
 /// "min" and "max" of `count` elements as an accessor's JSON has them: raw values, tight.

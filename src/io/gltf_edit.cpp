@@ -62,12 +62,22 @@ GltfEdit::GltfEdit(const GltfFile& file)
 
 std::uint64_t GltfEdit::add_accessor(Json accessor, std::string bytes, std::size_t stride,
                                      GltfTarget target) {
+  return add_array(std::move(accessor), {std::move(bytes), {}}, stride, target);
+}
+
+std::uint64_t GltfEdit::add_accessor(Json accessor, std::string_view bytes, GltfTarget target) {
+  return add_array(std::move(accessor), {{}, bytes}, 0, target);
+}
+
+std::uint64_t GltfEdit::add_array(Json accessor, NewView bytes, std::size_t stride,
+                                  GltfTarget target) {
   Json& views = json["bufferViews"];
   Json& accessors = json["accessors"];
-  Json view = {{"buffer", 0}, {"byteOffset", 0}, {"byteLength", bytes.size()}};
+  Json view = {{"buffer", 0}, {"byteOffset", 0}, {"byteLength", bytes.bytes().size()}};
   if (stride != 0) view["byteStride"] = stride;
   view["target"] = static_cast<int>(target);
-  new_views_.push_back({std::move(bytes), views.size()});
+  bytes.view = views.size();
+  new_views_.push_back(std::move(bytes));
   accessor["bufferView"] = views.size();
   views.push_back(std::move(view));
   accessors.push_back(std::move(accessor));
@@ -168,7 +178,7 @@ void GltfEdit::lay_out(const std::vector<bool>& view_died) {
     Json& view = json["bufferViews"][added.view];
     view["buffer"] = target;
     view["byteOffset"] = buffers_[target].size;
-    buffers_[target].add(added.bytes);
+    buffers_[target].add(added.bytes());
   }
   for (std::uint64_t b = 0; b < buffers_.size(); ++b) {
     if (storage_[b] != GltfBuffer::Storage::absent)

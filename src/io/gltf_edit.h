@@ -45,19 +45,29 @@ class GltfEdit {
   /// each element takes `stride` bytes of `bytes`. Its number holds until finish().
   std::uint64_t add_accessor(Json accessor, std::string bytes, std::size_t stride,
                              GltfTarget target);
+  /// The same for tightly packed bytes that stay where they are for as long as this object's
+  /// buffers are used.
+  std::uint64_t add_accessor(Json accessor, std::string_view bytes, GltfTarget target);
 
   /// Drops what only the old data needed, and lays out the buffers. Call it once, last.
   void finish();
 
-  /// Per buffer, after finish(). They look at `file` and at this object.
+  /// Per buffer, after finish(). They look at `file`, at this object and at what it was lent.
   [[nodiscard]] const std::vector<GltfPieces>& buffers() const { return buffers_; }
   [[nodiscard]] GltfBuffer::Storage storage(std::size_t buffer) const { return storage_[buffer]; }
 
  private:
   struct NewView {
-    std::string bytes;
+    std::string owned;
+    std::string_view lent;   ///< used if nothing is owned
     std::uint64_t view = 0;  ///< its number
+
+    [[nodiscard]] std::string_view bytes() const {
+      return owned.empty() ? lent : std::string_view(owned);
+    }
   };
+
+  std::uint64_t add_array(Json accessor, NewView bytes, std::size_t stride, GltfTarget target);
 
   void drop_stale_extensions();
   std::vector<std::uint64_t> move_into(const char* directory, std::uint64_t first_new,

@@ -5,17 +5,15 @@
 namespace wrapatlas {
 
 GltfLayer::GltfLayer(std::vector<GltfUv> old_uvs)
-    : old_count_(old_uvs.size()),
-      uvs_(std::move(old_uvs)),
-      taken_(old_count_),
-      next_(old_count_, kNone) {}
+    : old_count_(old_uvs.size()), uvs_(std::move(old_uvs)), taken_(old_count_) {}
 
-std::uint32_t GltfLayer::vertex(std::uint32_t source, GltfUv uv) {
+std::uint32_t GltfLayer::other_vertex(std::uint32_t source, GltfUv uv) {
   if (!taken_[source]) {
     taken_[source] = true;
     uvs_[source] = uv;
     return source;
   }
+  next_.resize(uvs_.size(), kNone);
   std::uint32_t at = source;
   for (;; at = next_[at]) {
     if (uvs_[at] == uv) return at;
@@ -44,7 +42,7 @@ std::uint32_t GltfLayer::cut_vertex(std::uint32_t position_number, const GltfBle
 
 bool GltfLayer::conflicts(std::uint32_t source, GltfUv uv) const {
   if (!taken_[source]) return false;
-  for (std::uint32_t at = source; at != kNone; at = next_[at]) {
+  for (std::uint32_t at = source; at != kNone; at = at < next_.size() ? next_[at] : kNone) {
     if (uvs_[at] == uv) return false;
   }
   return true;
@@ -53,7 +51,6 @@ bool GltfLayer::conflicts(std::uint32_t source, GltfUv uv) const {
 std::uint32_t GltfLayer::append(GltfUv uv, GltfExtraVertex vertex) {
   const auto number = static_cast<std::uint32_t>(uvs_.size());
   uvs_.push_back(uv);
-  next_.push_back(kNone);
   extra_.vertices.push_back(vertex);
   return number;
 }

@@ -23,7 +23,9 @@ class GltfLayer {
   explicit GltfLayer(std::vector<GltfUv> old_uvs);
 
   /// The vertex that is old vertex `source` with `uv`: itself, an earlier copy, or a new copy.
-  std::uint32_t vertex(std::uint32_t source, GltfUv uv);
+  std::uint32_t vertex(std::uint32_t source, GltfUv uv) {
+    return taken_[source] && uvs_[source] == uv ? source : other_vertex(source, uv);
+  }
   /// The vertex of a cut point; equal points of space between equal vertices with equal UVs are
   /// one vertex.
   std::uint32_t cut_vertex(std::uint32_t position_number, const GltfBlend& blend, GltfUv uv);
@@ -35,12 +37,14 @@ class GltfLayer {
   [[nodiscard]] const GltfExtraVertices& extra() const { return extra_; }
 
  private:
+  std::uint32_t other_vertex(std::uint32_t source, GltfUv uv);
   std::uint32_t append(GltfUv uv, GltfExtraVertex vertex);
 
   std::size_t old_count_;
   std::vector<GltfUv> uvs_;          ///< of all vertices
   std::vector<bool> taken_;          ///< per old vertex: is its UV a new one?
-  std::vector<std::uint32_t> next_;  ///< per vertex: the next copy of the same old one, or kNone
+  std::vector<std::uint32_t> next_;  ///< per vertex: the next copy of the same old one, or
+                                     ///< kNone. Empty, or too short, until a copy is looked for
   GltfExtraVertices extra_;
   std::map<std::array<std::uint32_t, 6>, std::uint32_t> cut_vertices_;
 };

@@ -21,8 +21,11 @@ class FreshPrimitive {
     vertices_of_.resize(mesh.positions.size() + atlas.cut_position_count, kNone);
     for (std::size_t f = 0; f < atlas.face_count(); ++f)
       add_face(atlas.face_begin[f], atlas.face_begin[f + 1]);
+    std::vector<std::uint32_t>().swap(vertices_of_);
+    std::vector<std::uint32_t>().swap(next_);
   }
 
+  /// Lends its arrays to `edit`.
   void write(GltfEdit& edit) const {
     if (indices_.empty()) return;
     GltfAccessor type;
@@ -139,9 +142,9 @@ Status write_new_gltf(const std::filesystem::path& path, const Mesh& mesh, const
   file.json["scenes"] = Json::array({{{"nodes", Json::array({0})}}});
   file.json["nodes"] = Json::array({{{"mesh", 0}}});
   GltfEdit edit(file);
-  for (const bool with_texcoords : {true, false}) {
-    FreshPrimitive(mesh, atlas, with_texcoords).write(edit);
-  }
+  const FreshPrimitive textured(mesh, atlas, true), plain(mesh, atlas, false);
+  textured.write(edit);
+  plain.write(edit);
   if (!edit.json.contains("meshes")) {
     return Error{ErrorKind::usage, path.string(), "there are no faces to write", ""};
   }

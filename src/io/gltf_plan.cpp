@@ -13,49 +13,23 @@ Error foreign_atlas(const GltfContents& contents) {
           "pack the mesh of the model that is saved"};
 }
 
-bool consistent(const Mesh& mesh, const AtlasMesh& atlas,
-                const std::vector<GltfPrimitive>& primitives) {
-  const std::size_t corners = atlas.corner_texcoord.size();
-  if (atlas.face_begin.empty() || atlas.face_begin.front() != 0 ||
-      atlas.face_begin.back() != corners || atlas.corner_source.size() != corners ||
-      atlas.corner_cut.size() != corners || atlas.face_source.size() != atlas.face_count()) {
-    return false;
-  }
+/// Whether the mesh is still made of these primitives. (That the atlas is of the mesh is known.)
+bool consistent(const Mesh& mesh, const std::vector<GltfPrimitive>& primitives) {
   std::size_t triangles = 0;
   for (const GltfPrimitive& primitive : primitives) triangles += primitive.face_count;
   if (mesh.face_count() != triangles || mesh.corner_count() != 3 * triangles) return false;
   for (const GltfPrimitive& primitive : primitives) {
     const std::size_t end = 3 * (std::size_t{primitive.first_face} + primitive.face_count);
+    const std::size_t last = std::size_t{primitive.first_position} + primitive.vertex_count;
+    if (end > mesh.corner_count() || last > mesh.positions.size()) return false;
+    bool fits = true;
     for (std::size_t c = 3 * std::size_t{primitive.first_face}; c < end; ++c) {
-      const std::uint32_t position = mesh.corner_position[c];
-      if (position - primitive.first_position >= primitive.vertex_count) return false;
-      if (position >= mesh.positions.size()) return false;
-      if (primitive.has_texcoords && mesh.corner_texcoord[c] >= mesh.texcoords.size()) return false;
+      fits &= mesh.corner_position[c] - primitive.first_position < primitive.vertex_count;
+      fits &= !primitive.has_texcoords || mesh.corner_texcoord[c] < mesh.texcoords.size();
     }
+    if (!fits) return false;
   }
-  std::uint32_t next = 0;  // every face of the mesh, in order, at least once
-  for (std::size_t f = 0; f < atlas.face_count(); ++f) {
-    const std::uint32_t source = atlas.face_source[f];
-    if (source != next && (next == 0 || source != next - 1)) return false;
-    next = source + 1;
-    if (atlas.face_begin[f + 1] < atlas.face_begin[f] + 3) return false;
-    for (std::uint32_t c = atlas.face_begin[f]; c < atlas.face_begin[f + 1]; ++c) {
-      const bool is_cut = atlas.corner_source[c] == kNone;
-      const std::uint32_t uv = atlas.corner_texcoord[c];
-      if (is_cut ? atlas.corner_cut[c] >= atlas.cut_points.size()
-                 : atlas.corner_source[c] / 3 != source) {
-        return false;
-      }
-      if (uv != kNone && uv >= atlas.texcoords.size()) return false;
-      if (!is_cut) continue;
-      const AtlasMesh::CutPoint& point = atlas.cut_points[atlas.corner_cut[c]];
-      if (point.position >= atlas.cut_points.size()) return false;
-      for (std::size_t k = 0; k < 3; ++k) {
-        if (point.weights[k] != 0 && point.corners[k] / 3 != source) return false;
-      }
-    }
-  }
-  return next == triangles;
+  return true;
 }
 
 class Planner {
@@ -86,8 +60,8 @@ class Planner {
  private:
   /// Both sides of an edge must get the same bits, whatever their accessors are.
   void place_cut_points() {
-    cut_positions_.resize(atlas_.cut_points.size());
-    std::vector<bool> placed(atlas_.cut_points.size());
+    cut_positions_.resize(atlas_.cut_position_count);
+    std::vector<bool> placed(atlas_.cut_position_count);
     for (const AtlasMesh::CutPoint& point : atlas_.cut_points) {
       if (placed[point.position]) continue;
       placed[point.position] = true;
@@ -145,11 +119,7 @@ class Planner {
     if (!primitive.has_texcoords) return uvs;
     const Json& index = json["attributes"][contents_.texcoord_name];
     const Result<GltfAccessor> accessor = open_accessor(contents_.file, *as_integer(index));
-    for (std::size_t i = 0; accessor && i < uvs.size(); ++i) {
-      const char* element = accessor->element(i);
-      uvs[i] = {static_cast<float>(accessor->value(element, 0)),
-                static_cast<float>(accessor->value(element, 1))};
-    }
+    if (accessor) read_floats(*accessor, 2, uvs.front().data());
     return uvs;
   }
 
@@ -184,41 +154,56 @@ class Planner {
     GltfPlan plan;
     plan.primitive = &primitive;
     plan.layer = layer_for(primitive, first, end);
-    plan.new_indices = !same_faces;
+    if (!same_faces) begin_indices(plan, first, first, end);
     GltfLayer& layer = result_.layers[plan.layer];
-    plan.indices.reserve(3 * (end - first));
-    std::vector<std::uint32_t> vertices;
-    std::vector<Vec2> points;
-    std::vector<std::array<std::uint32_t, 3>> triangles;
     for (std::size_t f = first; f < end; ++f) {
-      vertices.clear();
-      for (std::uint32_t c = atlas_.face_begin[f]; c < atlas_.face_begin[f + 1]; ++c) {
-        const std::uint32_t vertex = new_vertex(layer, primitive, c);
-        const std::uint32_t source = atlas_.corner_source[c];
-        if (source == kNone || vertex != vertex_of(primitive, source)) plan.new_indices = true;
-        vertices.push_back(vertex);
-      }
-      if (vertices.size() == 3) {
-        plan.indices.insert(plan.indices.end(), vertices.begin(), vertices.end());
+      const std::uint32_t begin = atlas_.face_begin[f], corners = atlas_.face_begin[f + 1] - begin;
+      if (corners != 3) {
+        add_piece(layer, f, plan);
         continue;
       }
-      points.clear();
-      triangles.clear();
-      for (std::uint32_t c = atlas_.face_begin[f]; c < atlas_.face_begin[f + 1]; ++c) {
-        points.push_back(flat_point(c));
+      std::array<std::uint32_t, 3> triangle{};
+      bool kept = true;  // has every corner its old vertex?
+      for (std::uint32_t k = 0; k < 3; ++k) {
+        triangle[k] = new_vertex(layer, primitive, begin + k);
+        const std::uint32_t source = atlas_.corner_source[begin + k];
+        kept = kept && source != kNone && triangle[k] == vertex_of(primitive, source);
       }
-      triangulate_piece(points, triangles);
-      for (const auto& triangle : triangles) {
-        for (const std::uint32_t offset : triangle) plan.indices.push_back(vertices[offset]);
-      }
+      if (kept && !plan.new_indices) continue;
+      if (!plan.new_indices) begin_indices(plan, first, f, end);
+      plan.indices.insert(plan.indices.end(), triangle.begin(), triangle.end());
     }
     if (layer.uvs().size() >= kNone) {
       return Error{ErrorKind::output, contents_.file.name, "it would need too many vertices",
                    "split the model into several"};
     }
-    if (!plan.new_indices) std::vector<std::uint32_t>().swap(plan.indices);
     result_.plans.push_back(std::move(plan));
     return Done{};
+  }
+
+  /// Most often no index changes, so they are listed from the first that does: `face`. Those of
+  /// the triangles from `first` up to it are the old ones.
+  void begin_indices(GltfPlan& plan, std::size_t first, std::size_t face, std::size_t end) const {
+    plan.new_indices = true;
+    plan.indices.reserve(3 * (end - first));
+    for (std::uint32_t c = atlas_.face_begin[first]; c < atlas_.face_begin[face]; ++c) {
+      plan.indices.push_back(vertex_of(*plan.primitive, atlas_.corner_source[c]));
+    }
+  }
+
+  /// The triangles of a face with more than three corners.
+  void add_piece(GltfLayer& layer, std::size_t face, GltfPlan& plan) {
+    vertices_.clear();
+    points_.clear();
+    triangles_.clear();
+    for (std::uint32_t c = atlas_.face_begin[face]; c < atlas_.face_begin[face + 1]; ++c) {
+      vertices_.push_back(new_vertex(layer, *plan.primitive, c));
+      points_.push_back(flat_point(c));
+    }
+    triangulate_piece(points_, triangles_);
+    for (const auto& triangle : triangles_) {
+      for (const std::uint32_t offset : triangle) plan.indices.push_back(vertices_[offset]);
+    }
   }
 
   const GltfContents& contents_;
@@ -227,13 +212,16 @@ class Planner {
   std::vector<Vec3> cut_positions_;  ///< per position number
   std::map<std::string, std::size_t> layer_of_;
   GltfPlans result_;
+  std::vector<std::uint32_t> vertices_;  ///< of one face; and what is made of it:
+  std::vector<Vec2> points_;
+  std::vector<std::array<std::uint32_t, 3>> triangles_;
 };
 
 }  // namespace
 
 Result<GltfPlans> plan_vertices(const GltfContents& contents, const Mesh& mesh,
                                 const AtlasMesh& atlas) {
-  if (!consistent(mesh, atlas, contents.primitives)) return foreign_atlas(contents);
+  if (!consistent(mesh, contents.primitives)) return foreign_atlas(contents);
   Planner planner(contents, mesh, atlas);
   if (Status planned = planner.plan_all(); !planned) return planned.error();
   return planner.take();

@@ -28,11 +28,9 @@ class GltfSource : public Model::Source {
   Status save(const std::filesystem::path& path, const Mesh& mesh,
               const AtlasMesh& atlas) const override {
     GltfEdit edit(contents_->file);
-    {
-      const Result<GltfPlans> plans = plan_vertices(*contents_, mesh, atlas);
-      if (!plans) return plans.error();
-      if (Status written = write_arrays(*contents_, *plans, edit); !written) return written;
-    }
+    const Result<GltfPlans> plans = plan_vertices(*contents_, mesh, atlas);
+    if (!plans) return plans.error();
+    if (Status written = write_arrays(*contents_, *plans, edit); !written) return written;
     set_repeating_samplers(edit.json, texture_uses(*contents_), atlas.wrap);
     edit.finish();
     return save_gltf(contents_->file, edit, path, wants_glb(path, contents_->file.binary));

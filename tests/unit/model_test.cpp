@@ -105,6 +105,7 @@ TEST(Model, AtlasesThatDoNotFitAreRefused) {
   expect_misfit(whole, [](AtlasMesh& a) { a.face_begin[1] = 4; });
   expect_misfit(halved, [](AtlasMesh& a) { a.cut_points.pop_back(); });
   expect_misfit(halved, [](AtlasMesh& a) { a.cut_points[0].corners[1] = 5; });
+  expect_misfit(halved, [](AtlasMesh& a) { a.cut_points[0].position = a.cut_position_count; });
   expect_misfit(halved, [](AtlasMesh& a) {
     a.face_source[1] = 1;
     a.face_source[0] = 1;

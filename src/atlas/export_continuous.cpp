@@ -1,12 +1,11 @@
-#include <numeric>
-
 #include "atlas/chart_uvs.h"
+#include "atlas/uncut_atlas.h"
 #include "wrapatlas/atlas.h"
 
 namespace wrapatlas {
 
 AtlasMesh export_continuous(const Mesh& mesh, const ChartSet& charts, const Packing& packing) {
-  AtlasMesh atlas;
+  AtlasMesh atlas = uncut_atlas(mesh);
   std::vector<std::uint32_t> first_texcoord;
   bool leaves_u = false, leaves_v = false;
   for (std::size_t chart = 0; chart < charts.charts.size(); ++chart) {
@@ -21,13 +20,6 @@ AtlasMesh export_continuous(const Mesh& mesh, const ChartSet& charts, const Pack
   leaves_v = leaves_v && wraps_v(packing.wrap);
   atlas.wrap = leaves_u ? (leaves_v ? Wrap::uv : Wrap::u) : (leaves_v ? Wrap::v : Wrap::none);
 
-  atlas.face_begin = mesh.face_begin;
-  atlas.face_source.resize(mesh.face_count());
-  std::iota(atlas.face_source.begin(), atlas.face_source.end(), 0U);
-  atlas.corner_source.resize(mesh.corner_count());
-  std::iota(atlas.corner_source.begin(), atlas.corner_source.end(), 0U);
-  atlas.corner_cut.assign(mesh.corner_count(), kNone);
-  atlas.corner_texcoord.assign(mesh.corner_count(), kNone);
   for (std::size_t face = 0; face < mesh.face_count(); ++face) {
     const std::uint32_t chart = charts.face_chart[face];
     if (chart == kNone) continue;

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "common.h"
+#include "options.h"
 #include "wrapatlas/model.h"
 #include "wrapatlas/validate.h"
 
@@ -14,7 +15,9 @@ namespace wrapatlas::cli {
 namespace {
 
 struct CheckArguments {
-  std::string input, reference, resolution = "1024", wrap = "none", stacked = "separate", json;
+  std::string input, reference, json;
+  Resolution resolution;
+  Stacked stacked = Stacked::separate;
   CheckOptions options;
   int texcoord = 0;
   bool quiet = false, verbose = false;
@@ -35,7 +38,7 @@ Json to_json(const CheckArguments& arguments, const CheckReport& report, double 
           {"command", "check"},
           {"input", arguments.input},
           {"reference", arguments.reference},
-          {"wrap", arguments.wrap},
+          {"wrap", name_of(kWraps, arguments.options.wrap)},
           {"width", arguments.options.width},
           {"height", arguments.options.height},
           {"padding", arguments.options.padding},
@@ -73,15 +76,38 @@ void turn_upside_down(Mesh& mesh) {
   for (Vec2& uv : mesh.texcoords) uv.y = 1 - uv.y;
 }
 
-int run(CheckArguments& arguments) {
-  const double start = seconds_now();
-  const auto size = parse_resolution(arguments.resolution);
-  if (!size) return report_error(size.error());
+Status resolve_options(const CLI::App& app, CheckArguments& arguments) {
   CheckOptions& options = arguments.options;
-  options.width = size->width;
-  options.height = size->height;
-  options.wrap = parse_wrap(arguments.wrap);
-  options.stacked_ok = arguments.stacked == "keep";
+  options.width = arguments.resolution.width;
+  options.height = arguments.resolution.height;
+  options.stacked_ok = arguments.stacked == Stacked::keep;
+  options.threads = threads_for(options.threads);
+  const std::pair<const char*, double> distances[] = {{"--padding", options.padding},
+                                                      {"--margin", options.margin}};
+  for (const auto& [option, texels] : distances) {
+    if (texels < std::min(options.width, options.height)) continue;
+    return usage(
+        fmt::format("{} {}", option, texels),
+        fmt::format("no less than a side of {} x {} texels", options.width, options.height),
+        "give less, or the --resolution of the atlas");
+  }
+  const Ignored ignored[] = {
+      {"--margin", options.wrap == Wrap::uv && options.margin > 0,
+       "both axes wrap, so there are no sides to keep away from",
+       "leave it out, or give --wrap u, v or none"},
+      {"--tolerance", arguments.reference.empty(), "there is no source to compare with",
+       "add --ref MODEL"},
+      {"--verbose", arguments.quiet, "it contradicts --quiet", "give one of them"},
+  };
+  if (const Status ok = refuse_ignored(app, ignored); !ok) return ok;
+  const std::string inputs[] = {arguments.input, arguments.reference};
+  return check_texcoord(arguments.texcoord, std::span(inputs, arguments.reference.empty() ? 1 : 2));
+}
+
+int run(const CLI::App& app, CheckArguments& arguments) {
+  const double start = seconds_now();
+  if (const Status ok = resolve_options(app, arguments); !ok) return report_error(ok.error());
+  const CheckOptions& options = arguments.options;
   LoadOptions load_options;
   load_options.texcoord_set = arguments.texcoord;
   const auto atlas = load_model(arguments.input, load_options);
@@ -116,9 +142,9 @@ int run(CheckArguments& arguments) {
     if (report->violations > report->findings.size()) {
       say("{}: and {} more\n", arguments.input, report->violations - report->findings.size());
     }
-    say("{}: {}: {} charts, {:.1f} % in use\n", arguments.input,
-        report->ok() ? "ok" : fmt::format("{} violations", report->violations), report->charts,
-        100 * report->efficiency);
+    say("{}: {}: {}, {:.1f} % in use\n", arguments.input,
+        report->ok() ? "ok" : quantity(report->violations, "violation"),
+        quantity(report->charts, "chart"), 100 * report->efficiency);
   }
   return report->ok() ? 0 : 1;
 }
@@ -134,39 +160,28 @@ Command make_check_command(CLI::App& parser) {
   app.add_option("--ref,--reference", a.reference,
                  "The model it was packed from: every face must be there, every chart be a copy "
                  "at one common scale, none mirrored");
-  app.add_option("--resolution", a.resolution, "Texels of the atlas: N or WxH")
-      ->capture_default_str();
-  add_wrap_option(app, a.wrap, "Axes on which the atlas wraps: uv, u, v, none");
-  app.get_option("--wrap")->capture_default_str();
-  app.add_option("--padding", a.options.padding, "Texels that must lie between charts")
-      ->check(CLI::NonNegativeNumber)
-      ->capture_default_str();
-  app.add_option("--margin", a.options.margin, "Texels to a side that does not wrap")
-      ->check(CLI::NonNegativeNumber)
-      ->capture_default_str();
-  app.add_option("--tolerance", a.options.tolerance,
-                 "Texels by which a chart may differ from a similarity copy of its source")
-      ->check(CLI::NonNegativeNumber)
-      ->capture_default_str();
-  app.add_option("--stacked", a.stacked, "keep: charts that overlap in the source may overlap here")
-      ->check(CLI::IsMember({"separate", "keep"}))
-      ->capture_default_str();
-  app.add_option("--texcoord", a.texcoord, "UV set of a glTF: K of TEXCOORD_K")
-      ->check(CLI::Range(0, 15))
-      ->capture_default_str();
-  app.add_option("--findings", a.options.max_findings, "How many violations to describe")
-      ->capture_default_str();
-  app.add_option("--threads", a.options.threads, "Threads; 0: all of the machine's")
-      ->check(CLI::Range(0, 1024))
-      ->capture_default_str();
-  app.add_option("--json", a.json, "Write a report as JSON to a file, or - for standard output");
+  add_resolution(app, a.resolution);
+  add_choice(app, "--wrap", a.options.wrap, kWraps, "Axes on which the atlas wraps");
+  add_number(app, "--padding", a.options.padding, {0, kMostTexels, "texels"},
+             "Texels that must lie between charts");
+  add_number(app, "--margin", a.options.margin, {0, kMostTexels, "texels"},
+             "Texels that must lie between charts and a side that does not wrap");
+  add_number(app, "--tolerance", a.options.tolerance, {0, kMostTexels, "texels"},
+             "Texels by which a chart may differ from a similarity copy of its source");
+  add_choice(app, "--stacked", a.stacked, kStacked,
+             "keep: charts that overlap in the source may overlap here");
+  add_texcoord(app, a.texcoord);
+  add_number(app, "--findings", a.options.max_findings, {0, 1e9},
+             "How many violations to describe");
+  add_threads(app, a.options.threads);
+  add_json(app, a.json);
   app.add_flag("--quiet", a.quiet, "Only the exit status");
   app.add_flag("--verbose", a.verbose, "All notes on defects of the input");
   app.footer(
-      "Exit status 0: every promise holds; 1: some do not.\n"
+      "Exit status: 0 every promise holds; 1 some do not; 2 usage; 3 unusable input.\n"
       "Example:\n"
       "  wrapatlas check packed.obj --ref model.obj --resolution 1024 --wrap uv --padding 2");
-  return {&app, [arguments] { return run(*arguments); }};
+  return {&app, [arguments, &app] { return run(app, *arguments); }};
 }
 
 }  // namespace wrapatlas::cli

@@ -4,8 +4,6 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-#include <array>
-#include <charconv>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
@@ -18,9 +16,6 @@ namespace {
 volatile std::sig_atomic_t interrupt_flag = 0;
 
 void on_interrupt(int) { interrupt_flag = 1; }
-
-constexpr std::array<const char*, 4> kWrapNames{"none", "u", "v", "uv"};
-constexpr std::array<const char*, 4> kMethodNames{"lprm02", "swg03", "zsgs04", "modulo"};
 
 }  // namespace
 
@@ -62,46 +57,12 @@ Status print_text(const std::string& text) {
 }
 
 int report_error(const Error& error) {
-  say("wrapatlas: {}\n", printable(error.message()));
+  say("wrapatlas: error: {}\n", printable(error.message()));
   return exit_status(error.kind);
 }
 
-Result<Resolution> parse_resolution(const std::string& text) {
-  const Error bad{ErrorKind::usage, "--resolution " + text, "not a size in texels",
-                  "give N or WxH, 1 to 65536 each, e.g. 1024 or 2048x1024"};
-  Resolution size;
-  const char* const end = text.data() + text.size();
-  const auto first = std::from_chars(text.data(), end, size.width);
-  if (first.ec != std::errc{}) return bad;
-  size.height = size.width;
-  if (first.ptr != end) {
-    if (*first.ptr != 'x') return bad;
-    const auto second = std::from_chars(first.ptr + 1, end, size.height);
-    if (second.ec != std::errc{} || second.ptr != end) return bad;
-    size.two_sided = true;
-  }
-  if (size.width < 1 || size.height < 1 || size.width > 65536 || size.height > 65536) return bad;
-  return size;
-}
-
-void add_wrap_option(CLI::App& app, std::string& value, const std::string& help) {
-  app.add_option("--wrap", value, help)->check(CLI::IsMember({"uv", "u", "v", "none"}));
-}
-
-Wrap parse_wrap(const std::string& name) {
-  for (std::size_t i = 0; i < kWrapNames.size(); ++i) {
-    if (name == kWrapNames[i]) return static_cast<Wrap>(i);
-  }
-  return Wrap::none;
-}
-
-const char* wrap_name(Wrap wrap) { return kWrapNames[static_cast<std::size_t>(wrap)]; }
-
-Method parse_method(const std::string& name) {
-  for (std::size_t i = 0; i < kMethodNames.size(); ++i) {
-    if (name == kMethodNames[i]) return static_cast<Method>(i);
-  }
-  return Method::modulo;
+std::string quantity(std::size_t count, const std::string& noun, const std::string& plural) {
+  return fmt::format("{} {}", count, count == 1 ? noun : (plural.empty() ? noun + "s" : plural));
 }
 
 Status write_json(const std::string& path, const Json& object) {

@@ -1,4 +1,4 @@
-// What the sub-commands share: exit statuses, options, JSON, progress, interruption.
+// What the sub-commands share: exit statuses, errors, JSON, progress, interruption.
 #pragma once
 
 #include <fmt/format.h>
@@ -35,12 +35,8 @@ Status print_text(const std::string& text);
 /// Prints the one line on stderr and returns the exit status.
 int report_error(const Error& error);
 
-/// Texels, from "N" or "WxH".
-struct Resolution {
-  int width = 1024, height = 1024;
-  bool two_sided = false;  ///< given as WxH
-};
-Result<Resolution> parse_resolution(const std::string& text);
+/// "1 chart", "2 charts"; the plural is the noun with an s unless it is given.
+std::string quantity(std::size_t count, const std::string& noun, const std::string& plural = "");
 
 /// A sub-command registered with the parser; run it if it was chosen.
 struct Command {
@@ -50,11 +46,6 @@ struct Command {
 Command make_pack_command(CLI::App& parser);
 Command make_check_command(CLI::App& parser);
 Command make_info_command(CLI::App& parser);
-
-void add_wrap_option(CLI::App& app, std::string& value, const std::string& help);
-Wrap parse_wrap(const std::string& name);
-const char* wrap_name(Wrap wrap);
-Method parse_method(const std::string& name);
 
 /// Writes the object to a file, or to standard output for "-".
 Status write_json(const std::string& path, const Json& object);

@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "common.h"
+#include "options.h"
 #include "wrapatlas/charts.h"
 #include "wrapatlas/model.h"
 
@@ -48,13 +49,15 @@ Json describe_charts(const ChartSet& set) {
 std::string to_text(const InfoArguments& arguments, const Model& model, const Json& charts) {
   std::string text;
   const auto out = std::back_inserter(text);
-  fmt::format_to(out, "{}\n  {} faces, {} vertices, {} UVs\n", arguments.input,
-                 model.mesh.face_count(), model.mesh.positions.size(), model.mesh.texcoords.size());
+  fmt::format_to(out, "{}\n  {}, {}, {}\n", arguments.input,
+                 quantity(model.mesh.face_count(), "face"),
+                 quantity(model.mesh.positions.size(), "vertex", "vertices"),
+                 quantity(model.mesh.texcoords.size(), "UV"));
   if (charts.is_null()) {
     fmt::format_to(out, "  no UVs, so there is nothing to pack\n");
   } else {
-    fmt::format_to(out, "  {} charts, {} triangles\n", charts["count"].get<std::size_t>(),
-                   charts["triangles"].get<std::size_t>());
+    fmt::format_to(out, "  {}, {}\n", quantity(charts["count"].get<std::size_t>(), "chart"),
+                   quantity(charts["triangles"].get<std::size_t>(), "triangle"));
     fmt::format_to(out, "  UV range [{:.4g}, {:.4g}] x [{:.4g}, {:.4g}]\n",
                    charts["uv_min"][0].get<double>(), charts["uv_max"][0].get<double>(),
                    charts["uv_min"][1].get<double>(), charts["uv_max"][1].get<double>());
@@ -75,6 +78,9 @@ std::string to_text(const InfoArguments& arguments, const Model& model, const Js
 }
 
 int run(const InfoArguments& arguments) {
+  if (const Status ok = check_texcoord(arguments.texcoord, std::span(&arguments.input, 1)); !ok) {
+    return report_error(ok.error());
+  }
   LoadOptions load_options;
   load_options.texcoord_set = arguments.texcoord;
   const auto model = load_model(arguments.input, load_options);
@@ -103,10 +109,9 @@ Command make_info_command(CLI::App& parser) {
   auto arguments = std::make_shared<InfoArguments>();
   CLI::App& app = *parser.add_subcommand("info", "Say what a model holds");
   app.add_option("input", arguments->input, "Model: .obj .ply .off .stl .gltf .glb")->required();
-  app.add_option("--texcoord", arguments->texcoord, "UV set of a glTF: K of TEXCOORD_K")
-      ->check(CLI::Range(0, 15))
-      ->capture_default_str();
-  app.add_option("--json", arguments->json, "Write it as JSON to a file, or - for standard output");
+  add_texcoord(app, arguments->texcoord);
+  add_json(app, arguments->json);
+  app.footer("Exit status: 0 done; 2 usage; 3 unusable input or output.");
   return {&app, [arguments] { return run(*arguments); }};
 }
 

@@ -33,10 +33,14 @@ int run(int argc, char** argv) {
   }
   try {
     parser.parse(argc, argv);
+  } catch (const CLI::ValidationError& error) {  // ours alone, and complete: see options.h
+    return report_error({wrapatlas::ErrorKind::usage, "", error.what(), ""});
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return parser.exit(error);
-    return report_error({wrapatlas::ErrorKind::usage, "", error.what(),
-                         "see wrapatlas --help, or wrapatlas COMMAND --help"});
+    const bool command = argc > 1 && argv[1][0] != '-';
+    return report_error(
+        {wrapatlas::ErrorKind::usage, "", error.what(),
+         fmt::format("see wrapatlas{}{} --help", command ? " " : "", command ? argv[1] : "")});
   }
   for (const Command& command : commands) {
     if (command.app->parsed()) return command.run();

@@ -106,7 +106,7 @@ class CommandTest(unittest.TestCase):
         """One line on stderr with where, what and the way out; nothing on stdout."""
         self.assertEqual(result.returncode, status, result.stderr[-1000:])
         self.assertEqual(result.stdout, "")
-        self.assertRegex(result.stderr, r"\Awrapatlas: [^\n]*[^\n; ]; [^\n ][^\n]*\n\Z")
+        self.assertRegex(result.stderr, r"\Awrapatlas: error: [^\n]*[^\n; ]; [^\n ][^\n]*\n\Z")
         for word in words:
             self.assertIn(word, result.stderr)
 

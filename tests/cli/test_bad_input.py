@@ -395,7 +395,7 @@ class Surroundings(support.CommandTest):
             result = subprocess.run([COMMAND, "info", "a.obj", "--json", "-"], cwd=self.folder,
                                     stdout=full, stderr=subprocess.PIPE, text=True)
         self.assertEqual(result.returncode, 3)
-        self.assertRegex(result.stderr, r"\Awrapatlas: standard output: [^\n]+; [^\n]+\n\Z")
+        self.assertRegex(result.stderr, r"\Awrapatlas: error: standard output: [^\n]+; [^\n]+\n\Z")
 
     def test_full_disk(self):
         text = obj([square(2 * i) for i in range(100)])
@@ -422,7 +422,7 @@ class Surroundings(support.CommandTest):
             self.skipTest("mounting a small file system takes root")
         self.assertEqual(result.stdout, "old\nb.obj\n")
         self.assertEqual(result.returncode, 3)
-        self.assertRegex(result.stderr, r"\Awrapatlas: disk/b.obj: cannot write \(No space left on "
+        self.assertRegex(result.stderr, r"\Awrapatlas: error: disk/b.obj: cannot write \(No space left on "
                                         r"device\); [^\n]+\n\Z")
 
 
@@ -529,6 +529,42 @@ class BadOptions(support.CommandTest):
                 (("--tolerance",), ("check", "a.obj", "--tolerance", "-1")),
                 (("input",), ("info",)),
                 (("--texcoord",), ("info", "a.obj", "--texcoord", "99"))):
+            with self.subTest(" ".join(arguments)):
+                self.refuse(2, words, *arguments)
+
+    def test_ranges_name_option_value_and_range(self):
+        self.write("a.obj", GOOD)
+        for command in (("pack", "a.obj", "-o", "b.obj"), ("check", "a.obj")):
+            result = self.refuse(2, (), *command, "--padding", "70000")
+            self.assertRegex(result.stderr, r"--padding 70000: out of range; give a number of "
+                                            r"texels from 0 to \d+\n")
+        result = self.refuse(2, (), "pack", "a.obj", "-o", "b.obj", "--rotations", "2.5")
+        self.assertIn("--rotations 2.5: not a whole number; give", result.stderr)
+        self.refuse(2, ("--padding 64:", "64 x 128"), "check", "a.obj", "--resolution", "64x128",
+                    "--padding", "64")
+
+    def test_what_would_be_ignored(self):
+        self.write("a.obj", GOOD)
+        pack = ("pack", "a.obj", "-o", "b.obj")
+        for words, arguments in (
+                (("--image-tiles:", "--image"), (*pack, "--image-tiles")),
+                (("--image-size:", "--image"), (*pack, "--image-size", "64")),
+                (("--image-tiles:", "wraps"), (*pack, "--image", "b.png", "--image-tiles", "--wrap",
+                                               "none")),
+                (("--texcoord 1:", "a.obj"), (*pack, "--texcoord", "1")),
+                (("--texcoord 1:", "a.obj"), ("check", "a.obj", "--texcoord", "1")),
+                (("--texcoord 1:", "a.obj"), ("info", "a.obj", "--texcoord", "1")),
+                (("--margin:", "--wrap"), (*pack, "--margin", "3")),
+                (("--margin:", "--wrap"), ("check", "a.obj", "--wrap", "uv", "--margin", "3")),
+                (("--tolerance:", "--ref"), ("check", "a.obj", "--tolerance", "1")),
+                (("--verbose:", "--quiet"), (*pack, "--quiet", "--verbose")),
+                (("--verbose:", "--quiet"), ("check", "a.obj", "--quiet", "--verbose")),
+                (("--all-sides:", "zsgs04"), (*pack, "--all-sides")),
+                (("--all-sides:", "zsgs04"), (*pack, "--method", "swg03", "--all-sides")),
+                (("--lambda:", "modulo"), (*pack, "--method", "zsgs04", "--lambda", "1")),
+                (("--no-inner:", "modulo"), (*pack, "--method", "lprm02", "--no-inner")),
+                (("--rotation-base:", "lprm02"), (*pack, "--method", "lprm02", "--rotation-base",
+                                                  "box"))):
             with self.subTest(" ".join(arguments)):
                 self.refuse(2, words, *arguments)
 

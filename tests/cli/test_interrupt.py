@@ -68,7 +68,7 @@ class Interrupt(support.CommandTest):
             ("pack", "mosaic.ply", "-o", "b.ply", *SEARCH, "--json", "b.json", "--image", "b.png"),
             "packing   0 %")
         self.assertEqual((status, output), (130, ""))
-        self.assertRegex(message, r"\Awrapatlas: [^\n]+\n\Z")
+        self.assertRegex(message, r"\Awrapatlas: error: [^\n]+\n\Z")
         self.assertEqual(self.contents(), before)
 
 

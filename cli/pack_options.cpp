@@ -1,0 +1,194 @@
+#include "pack_options.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "wrapatlas/model.h"
+
+namespace wrapatlas::cli {
+namespace {
+
+void add_promise_options(CLI::App& app, PackArguments& a) {
+  add_resolution(app, a.resolution);
+  app.add_option("--aspect", a.aspect,
+                 "Shape of the atlas at the area of --resolution N; search: the best of 31 ratios "
+                 "from 1:8 to 8:1. Default: as --resolution says")
+      ->type_name("square|W:H|search");
+  add_choice(app, "--wrap", a.wrap, kWraps,
+             "Axes on which charts may wrap around. Default: uv; none for the earlier packers");
+  add_choice(app, "--export", a.export_mode, kExports,
+             "continuous: whole charts, UVs may exceed 1 where they wrap; cut: faces are split at "
+             "the border so that all UVs lie in [0,1]");
+  add_number(app, "--padding", a.padding, {0, 4096, "texels"},
+             "Texels between charts, kept exactly. Default: max(2, longer side / 256)");
+  add_number(app, "--margin", a.margin, {0, kMostTexels, "texels"},
+             "Texels to a side that does not wrap. Default: half the padding");
+  add_number(app, "--block", a.options.block, {1, 64, "texels"},
+             "No two charts share a block of N x N texels (4 for BCn compression)");
+  add_choice(app, "--stacked", a.stacked, kStacked,
+             "Charts that lie on each other in the input: separate them, or keep them together "
+             "(they go on sharing texels)");
+}
+
+void add_search_options(CLI::App& app, PackArguments& a) {
+  PackOptions& options = a.options;
+  add_number(app, "--rotations", options.rotations, {1, 3600, "angles"},
+             "Angles each chart is tried at (lprm02 has one of its own)");
+  add_choice(app, "--rotation-base", options.rotation_base, kRotationBases,
+             "Angles counted from the chart's input axes (the paper), or from its smallest box");
+  add_number(app, "--grid", options.grid, {0, 8192, "cells"},
+             "Cells along the longer side of the search grid; finer is slower and, as a rule, "
+             "denser. 0: 256, more for many charts");
+  add_choice(app, "--coverage", options.coverage, kCoverages,
+             "When a cell belongs to a chart: conservative (safe), or center (the paper's; charts "
+             "may overlap by part of a cell)");
+  add_number(app, "--scale-start", options.start_upper, {0.1, 1},
+             "Upper end of the scale search at its start, in parts of the scale that would fill "
+             "the atlas; the paper prints 0.9");
+  add_number(app, "--lambda", options.lambda, {0, 1e6},
+             "modulo: how much worse placements count that lie on top of the packing");
+  app.add_flag("--no-inner", a.no_inner, "modulo: leave out the four inner strategies");
+  app.add_flag("--all-sides", options.all_sides, "zsgs04: try all four sides for every chart");
+  add_number(app, "--seed", options.seed, {0, 4294967295},
+             "Reported; these methods draw no random numbers");
+}
+
+void add_output_options(CLI::App& app, PackArguments& a) {
+  add_json(app, a.json);
+  app.add_option("--image", a.image, "Draw the atlas: .png or .svg")->type_name("FILE");
+  add_number(app, "--image-size", a.picture.size, {16, 8192, "pixels"},
+             "Pixels along the longer side of the atlas in the picture");
+  app.add_flag("--image-tiles", a.picture.tile2x2,
+               "Draw the atlas twice along each axis that wraps, to show how it goes on");
+  app.add_flag("--quiet", a.quiet, "No progress, no summary, no notes");
+  app.add_flag("--verbose", a.verbose, "A longer summary, more notes");
+}
+
+/// Options that belong to some methods only.
+struct MethodOption {
+  const char* option;
+  std::vector<Method> methods;
+};
+const MethodOption kMethodOptions[] = {
+    {"--rotation-base", {Method::modulo, Method::swg03, Method::zsgs04}},
+    {"--lambda", {Method::modulo}},
+    {"--no-inner", {Method::modulo}},
+    {"--all-sides", {Method::zsgs04}},
+};
+
+std::vector<Ignored> options_of_other_methods(Method method) {
+  std::vector<Ignored> ignored;
+  for (const auto& [option, methods] : kMethodOptions) {
+    ignored.push_back(
+        {option, std::find(methods.begin(), methods.end(), method) == methods.end(),
+         fmt::format("--method {} has no use for it", name_of(kMethods, method)),
+         fmt::format("leave it out, or use --method {}", name_of(kMethods, methods.front()))});
+  }
+  return ignored;
+}
+
+Status refuse_useless(const CLI::App& app, const PackArguments& a) {
+  const Wrap wrap = a.options.wrap;
+  if (const Status ok = refuse_ignored(app, options_of_other_methods(a.options.method)); !ok) {
+    return ok;
+  }
+  const std::string no_picture = "no picture is drawn", add_picture = "add --image FILE";
+  const Ignored ignored[] = {
+      {"--image-size", a.image.empty(), no_picture, add_picture},
+      {"--image-tiles", a.image.empty(), no_picture, add_picture},
+      {"--image-tiles", wrap == Wrap::none, "nothing wraps, so there is nothing to repeat",
+       "leave it out"},
+      {"--margin", wrap == Wrap::uv, "both axes wrap, so there are no sides to keep away from",
+       "leave it out, or give --wrap u, v or none"},
+      {"--verbose", a.quiet, "it contradicts --quiet", "give one of them"},
+  };
+  return refuse_ignored(app, ignored);
+}
+
+Result<double> parse_ratio(const std::string& aspect) {
+  double across = 1, up = 1;
+  if (aspect != "square") {
+    const std::size_t colon = aspect.find(':');
+    const bool numbers = colon != std::string::npos &&
+                         CLI::detail::lexical_cast(aspect.substr(0, colon), across) &&
+                         CLI::detail::lexical_cast(aspect.substr(colon + 1), up);
+    if (!numbers || !(across > 0 && up > 0) || across / up > 1024 || up / across > 1024) {
+      return usage("--aspect " + aspect, "not an aspect ratio",
+                   "give square, search or W:H, e.g. 2:1, at most 1024:1");
+    }
+  }
+  return across / up;
+}
+
+/// --resolution and --aspect together give the size in texels.
+Status resolve_size(PackArguments& a) {
+  const Resolution& size = a.resolution;
+  PackOptions& options = a.options;
+  options.width = size.width;
+  options.height = size.height;
+  if (a.aspect.empty()) return Done{};
+  if (size.two_sided) {
+    return usage("--aspect " + a.aspect, "--resolution WxH already gives the shape",
+                 "leave out --aspect, or give --resolution N");
+  }
+  if (a.aspect == "search") {
+    options.search_aspect = true;
+    return Done{};
+  }
+  const auto ratio = parse_ratio(a.aspect);
+  if (!ratio) return ratio.error();
+  const double stretch = std::sqrt(*ratio);
+  const auto texels = [&](double side) {
+    const double block = options.block;
+    return static_cast<int>(std::max(1.0, std::round(side / block)) * block);
+  };
+  options.width = texels(size.width * stretch);
+  options.height = texels(size.height / stretch);
+  if (std::max(options.width, options.height) > kMostTexels) {
+    return usage("--aspect " + a.aspect,
+                 fmt::format("makes {} x {} texels", options.width, options.height),
+                 "lower --resolution: 65536 texels a side are the limit");
+  }
+  return Done{};
+}
+
+}  // namespace
+
+void add_pack_options(CLI::App& app, PackArguments& a) {
+  app.add_option("input", a.input, "Model with UVs: .obj .ply .off .gltf .glb")->required();
+  app.add_option("-o,--output", a.output,
+                 "Where to write it: .obj .ply .gltf .glb. The input's format keeps all else as "
+                 "it is; another one gets faces and UVs")
+      ->required()
+      ->type_name("FILE");
+  add_choice(app, "--method", a.options.method, kMethods,
+             "modulo (Noell & Stricker 2011, the one that wraps), or an earlier packer");
+  add_promise_options(app, a);
+  add_texcoord(app, a.texcoord);
+  add_search_options(app, a);
+  add_threads(app, a.options.threads);
+  add_output_options(app, a);
+}
+
+Status resolve_pack_options(const CLI::App& app, PackArguments& a) {
+  PackOptions& options = a.options;
+  if (const Status ok = resolve_size(a); !ok) return ok;
+  const bool can_wrap = options.method == Method::modulo;
+  options.wrap = a.wrap.value_or(can_wrap ? Wrap::uv : Wrap::none);
+  if (!can_wrap && options.wrap != Wrap::none) {
+    return usage(fmt::format("--wrap {}", name_of(kWraps, options.wrap)),
+                 fmt::format("{} cannot wrap around the border", name_of(kMethods, options.method)),
+                 "use --method modulo, or --wrap none");
+  }
+  options.padding =
+      a.padding.value_or(std::max(2.0, std::max(options.width, options.height) / 256.0));
+  options.margin = a.margin.value_or(-1);
+  options.inner = !a.no_inner;
+  options.threads = threads_for(options.threads);
+  if (const Status ok = refuse_useless(app, a); !ok) return ok;
+  return check_texcoord(a.texcoord, std::span(&a.input, 1));
+}
+
+}  // namespace wrapatlas::cli

@@ -1,0 +1,39 @@
+// The options of `wrapatlas pack`: what they are, and what they come to.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "options.h"
+#include "wrapatlas/picture.h"
+
+namespace wrapatlas::cli {
+
+enum class Export { continuous, cut };
+inline constexpr Named<Export> kExports[] = {{"continuous", Export::continuous},
+                                             {"cut", Export::cut}};
+
+struct PackArguments {
+  std::string input, output, aspect, json, image;
+  Resolution resolution;
+  std::optional<Wrap> wrap;
+  std::optional<double> padding, margin;
+  Export export_mode = Export::continuous;
+  Stacked stacked = Stacked::separate;
+  int texcoord = 0;
+  bool quiet = false, verbose = false, no_inner = false;
+  PictureOptions picture;
+  PackOptions options;  ///< complete after resolve_pack_options
+
+  /// Texels to sides that do not wrap, as asked or by default.
+  [[nodiscard]] double margin_in_force() const {
+    return options.margin < 0 ? options.padding / 2 : options.margin;
+  }
+};
+
+void add_pack_options(CLI::App& app, PackArguments& arguments);
+
+/// Fills arguments.options. Refuses what contradicts itself and what would be ignored.
+Status resolve_pack_options(const CLI::App& app, PackArguments& arguments);
+
+}  // namespace wrapatlas::cli

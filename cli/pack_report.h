@@ -1,0 +1,27 @@
+// What `wrapatlas pack` says about its work: JSON, a summary, notes.
+#pragma once
+
+#include "common.h"
+#include "pack_options.h"
+#include "wrapatlas/charts.h"
+#include "wrapatlas/model.h"
+#include "wrapatlas/pack.h"
+
+namespace wrapatlas::cli {
+
+/// What the stages took, and what the check said.
+struct PackOutcome {
+  double read = 0, charts = 0, pack = 0, validate = 0, write = 0, total = 0;  ///< seconds
+  bool valid = true;
+};
+
+Json pack_json(const PackArguments& arguments, const ChartSet& charts, const Packing& packing,
+               const PackOutcome& outcome);
+
+void print_pack_summary(const PackArguments& arguments, const ChartSet& charts,
+                        const Packing& packing, const PackOutcome& outcome);
+
+/// Notes on the input, before the work begins.
+void print_pack_notes(const PackArguments& arguments, const Model& model, const ChartSet& charts);
+
+}  // namespace wrapatlas::cli

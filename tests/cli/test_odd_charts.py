@@ -1,0 +1,133 @@
+"""Charts that a packing can live with although they are odd, and those that do not fit."""
+
+import unittest
+
+import support
+from small_files import GOOD, STOFF
+from support import obj, obj_lines, quick, rectangle, square
+
+
+class Repairs(support.CommandTest):
+    """Defects that a packing can live with: all faces are still there and the check holds."""
+
+    def pack_and_check(self, content, *options, stacked=False):
+        keep = ("--stacked", "keep") if stacked else ()
+        self.write("a.obj", content)
+        report = self.pack_report("a.obj", "b.obj", *keep, *options)
+        self.assertTrue(report["valid"])
+        judged = self.check("b.obj", "a.obj", "--wrap", report["wrap"], *keep)
+        self.assertTrue(judged["ok"])
+        packed = self.path("b.obj").read_text()
+        self.assertEqual(len(obj_lines(packed, "f")), len(obj_lines(content, "f")))
+        return report
+
+    def notes(self, content):
+        self.write("a.obj", content)
+        return self.succeed("pack", "a.obj", "-o", "b.obj", *quick()).stderr
+
+    def test_triangles_of_no_area(self):
+        good = [square(), square(2), [(4, 0), (5, 0), (4, 1)]]
+        bad = [[(0, 0), (0, 0), (0, 0)], [(3, 3), (4, 4), (5, 5)], [(1, 1), (2, 2), (1, 1)]]
+        report = self.pack_and_check(obj(good + bad))
+        self.assertEqual(report["charts"], 6)
+
+    def test_chart_with_a_sliver(self):
+        points = [(0, 0), (1, 0), (1, 1), (0, 1), (0.5, 0)]
+        lines = [f"v {u} {v} 0\nvt {u} {v}" for u, v in points]
+        self.pack_and_check("\n".join(lines) + "\nf 1/1 5/5 2/2\nf 1/1 2/2 3/3\nf 1/1 3/3 4/4\n")
+
+    def test_mirrored_charts(self):
+        bend = [(0, 0), (3, 0), (3, 1), (1, 1), (1, 3), (0, 3)]
+        mirrored = [(8 - u, v) for u, v in bend]
+        self.assertEqual(self.pack_and_check(obj([bend, mirrored, bend[::-1]]))["charts"], 3)
+
+    def test_a_face_folded_over_its_neighbour(self):
+        text = obj([square()]) + "f 1/1 3/3 2/2\n"
+        self.pack_and_check(text)
+
+    def test_overlapping_charts_are_taken_apart(self):
+        report = self.pack_and_check(obj([square(), square(0.5, 0.25), square(0.7, 0.1)]))
+        self.assertEqual((report["charts"], report["stacked"]), (3, 3))
+
+    def test_overlapping_charts_may_stay_together(self):
+        text = obj([square(), square(0.5, 0.25), square(3, 3)])
+        self.assertEqual(self.pack_and_check(text, stacked=True)["charts"], 2)
+
+    def test_a_chart_that_overlaps_itself_is_reported(self):
+        ring = [(0, 0), (4, 0), (4, 2), (1, 2), (1, -1), (2, -1), (2, 1), (3, 1), (3, 1.5), (0, 1)]
+        self.assertIn("a.obj: note: 1 charts overlap themselves", self.notes(obj([ring])))
+        self.pack_and_check(obj([ring, square(9)]))
+
+    def test_duplicate_faces(self):
+        twice = GOOD + "\n".join(obj_lines(GOOD, "f")) + "\n"
+        report = self.pack_and_check(twice)
+        self.assertEqual(report["placed"], report["charts"])
+
+    def test_faces_without_uvs_stay(self):
+        text = GOOD + "f 1 2 3\n"
+        self.assertEqual(self.pack_and_check(text)["faces_without_uv"], 1)
+        self.assertEqual(obj_lines(self.path("b.obj").read_text(), "f")[-1], "f 1 2 3")
+        self.assertIn("a.obj: note: 1 faces have no UVs and stay as they are", self.notes(text))
+
+    def test_far_off_and_negative_uvs(self):
+        self.pack_and_check(obj([square(-1000, 500), square(2000, -3)]))
+
+    def test_one_chart(self):
+        report = self.pack_and_check(obj([square()]))
+        self.assertEqual((report["charts"], report["placed"]), (1, 1))
+        self.assertGreater(report["efficiency"], 0.8)
+
+    def test_charts_of_very_different_size(self):
+        report = self.pack_and_check(obj([square(0, 0, 1), square(2, 0, 1e-7)]))
+        self.assertEqual(report["placed"], 2)
+
+    def test_left_aside_faces_are_noted(self):
+        self.write("a.off", STOFF.replace("3 1 0", "3 2 0") + "2 0 1\n")
+        result = self.succeed("pack", "a.off", "-o", "b.obj", *quick())
+        self.assertIn("a.off: note: left aside 1 faces", result.stderr)
+
+
+class TooLarge(support.CommandTest):
+    def test_padding_beyond_the_page(self):
+        self.write("a.obj", GOOD)
+        for padding in ("50", "64", "300"):
+            for method in ("modulo", "swg03"):
+                with self.subTest(padding, method=method):
+                    self.refuse_pack(4, ("a.obj", "padding"), "a.obj", "--method", method,
+                                     "--resolution", "64", "--padding", padding)
+
+    def test_margin_beyond_the_page(self):
+        self.write("a.obj", GOOD)
+        self.refuse_pack(4, ("a.obj", "margin"), "a.obj", "--wrap", "none", "--resolution", "64",
+                         "--margin", "32")
+
+    def test_long_thin_chart(self):
+        """Too long for the page along its side, so it lies small or winds around; nothing hangs."""
+        self.write("a.obj", obj([rectangle(0, 0, 1000, 1)]))
+        for wrap in ("none", "u", "uv"):
+            with self.subTest(wrap):
+                self.pack("a.obj", "b.obj", "--wrap", wrap)
+                self.assertTrue(self.check("b.obj", "a.obj", "--wrap", wrap)["ok"])
+
+    def test_one_texel(self):
+        self.write("a.obj", GOOD)
+        self.refuse_pack(4, ("a.obj", "resolution"), "a.obj", "--resolution", "1")
+
+    def test_more_charts_than_texels(self):
+        self.write("a.obj", obj([square(2 * i) for i in range(300)]))
+        self.refuse_pack(4, ("a.obj", "300 charts", "padding"), "a.obj", "--resolution", "16",
+                         "--grid", "16")
+
+    def test_100000_charts(self):
+        count, side = 100000, 317
+        charts = [rectangle(i % side, i // side, 0.2 + 0.7 * (i % 7) / 7, 0.3 + 0.6 * (i % 5) / 5)
+                  for i in range(count)]
+        self.write("a.obj", obj(charts))
+        report = self.report("pack", "a.obj", "-o", "b.obj", "--resolution", "4096", "--padding",
+                             "1", "--method", "lprm02", "--grid", "1024", "--quiet")
+        self.assertEqual((report["charts"], report["placed"]), (count, count))
+        self.assertEqual(len(obj_lines(self.path("b.obj").read_text(), "f")), count)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -4,6 +4,38 @@
 #include <cmath>
 
 namespace wrapatlas {
+namespace {
+
+/// A corner of a hull that goes around it once while a direction does (Shamos 1978).
+class Caliper {
+ public:
+  explicit Caliper(std::span<const Vec2> hull) : hull_(hull) {}
+
+  /// For what is known of its place, so that rounding cannot leave it behind.
+  void at_least(std::size_t corner) { at_ = std::max(at_, corner); }
+  [[nodiscard]] std::size_t at() const { return at_ % hull_.size(); }
+  [[nodiscard]] std::size_t steps() const { return at_; }
+
+  /// One corner on, if the step to it gains height. Rounding cannot send it around for ever.
+  template <typename Height>
+  bool advances(const Height& height) {
+    const std::size_t n = hull_.size();
+    if (at_ >= 3 * n || !(height(hull_[(at_ + 1) % n] - hull_[at_ % n]) > 0)) return false;
+    ++at_;
+    return true;
+  }
+  template <typename Height>
+  void turn(const Height& height) {
+    while (advances(height)) {
+    }
+  }
+
+ private:
+  std::span<const Vec2> hull_;
+  std::size_t at_ = 1;
+};
+
+}  // namespace
 
 std::vector<Vec2> convex_hull(std::span<const Vec2> points) {
   std::vector<Vec2> sorted(points.begin(), points.end());
@@ -27,28 +59,50 @@ std::vector<Vec2> convex_hull(std::span<const Vec2> points) {
 }
 
 double diameter_direction(std::span<const Vec2> hull) {
-  double longest = -1, direction = 0;
-  for (std::size_t i = 0; i < hull.size(); ++i) {
-    for (std::size_t j = i + 1; j < hull.size(); ++j) {
-      const Vec2 d = hull[j] - hull[i];
-      if (dot(d, d) > longest) {
-        longest = dot(d, d);
-        direction = std::atan2(d.y, d.x);
-      }
-    }
+  const std::size_t n = hull.size();
+  if (n < 2) return 0;
+  double longest = -1;
+  std::pair<std::size_t, std::size_t> ends;
+  const auto measure = [&](std::size_t a, std::size_t b) {
+    const auto pair = std::minmax({a % n, b % n});
+    const Vec2 d = hull[pair.second] - hull[pair.first];
+    if (dot(d, d) < longest || (dot(d, d) == longest && ends < pair)) return;
+    longest = dot(d, d);
+    ends = pair;
+  };
+  // Two parallel lines with the hull between them touch it in its diameter's ends once, as they
+  // are turned around it along one side after the other.
+  Caliper opposite(hull);
+  for (std::size_t i = 0; i < n; ++i) {
+    const Vec2 side = hull[(i + 1) % n] - hull[i];
+    opposite.at_least(i + 2);
+    do {
+      measure(i, opposite.at());
+      measure(i + 1, opposite.at());
+    } while (opposite.advances([side](Vec2 step) { return cross(side, step); }));
+    measure(i, opposite.at() + 1);  // where it belongs to a side parallel to this one
+    measure(i + 1, opposite.at() + 1);
   }
-  return direction;
+  const Vec2 d = hull[ends.second] - hull[ends.first];
+  return std::atan2(d.y, d.x);
 }
 
 double smallest_box_direction(std::span<const Vec2> hull) {
+  const std::size_t n = hull.size();
+  if (n < 2) return 0;
   double smallest = std::numeric_limits<double>::infinity(), direction = 0;
-  for (std::size_t i = 0; i < hull.size(); ++i) {
-    const Vec2 side = hull[(i + 1) % hull.size()] - hull[i];
-    const double norm = length(side);
-    if (norm == 0) continue;
-    Box2 box;
-    for (const Vec2 p : hull) box.add({dot(side, p) / norm, cross(side, p) / norm});
-    const double area = box.size().x * box.size().y;
+  Caliper right(hull), top(hull), left(hull);
+  for (std::size_t i = 0; i < n; ++i) {
+    const Vec2 side = hull[(i + 1) % n] - hull[i];
+    right.at_least(i + 1);
+    right.turn([side](Vec2 step) { return dot(side, step); });
+    top.at_least(std::max(i + 2, right.steps()));
+    top.turn([side](Vec2 step) { return cross(side, step); });
+    left.at_least(top.steps());
+    left.turn([side](Vec2 step) { return -dot(side, step); });
+    const double width = dot(side, hull[right.at()] - hull[left.at()]);
+    const double height = cross(side, hull[top.at()] - hull[i]);
+    const double area = width * height / dot(side, side);
     if (area < smallest) {
       smallest = area;
       direction = std::atan2(side.y, side.x);

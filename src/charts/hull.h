@@ -11,11 +11,12 @@ namespace wrapatlas {
 /// Corners of the convex hull, counter-clockwise, no three on a line. O(n log n).
 std::vector<Vec2> convex_hull(std::span<const Vec2> points);
 
-/// Direction (radians, in (-pi, pi]) of the longest distance between two corners of a hull.
+/// Direction (radians, in (-pi, pi]) of the longest distance between two corners of a hull; of
+/// equal ones that of the first pair of corners. By rotating calipers (Shamos 1978), O(corners).
 double diameter_direction(std::span<const Vec2> hull);
 
 /// Direction (radians) of a side of the smallest-area rectangle around a hull. Such a rectangle
-/// has a side along an edge of the hull (Freeman & Shapira 1975).
+/// has a side along an edge of the hull (Freeman & Shapira 1975). By rotating calipers, O(corners).
 double smallest_box_direction(std::span<const Vec2> hull);
 
 }  // namespace wrapatlas

@@ -57,6 +57,7 @@ struct ChartSet {
   std::vector<std::uint32_t> face_chart;    ///< per face of the mesh; kNone for a face without UVs
   std::vector<std::uint32_t> corner_point;  ///< per corner: index into its chart's points; or kNone
   std::uint32_t stacked = 0;                ///< charts that overlap another chart of the input
+  bool all_stacks_found = true;  ///< false: the search for them reached its limit of steps
   std::uint32_t self_overlapping = 0;
   std::uint32_t degenerate = 0;  ///< charts of zero area
   std::uint32_t faces_without_uv = 0;

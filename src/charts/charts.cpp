@@ -111,18 +111,18 @@ Chart concatenate(std::span<const Chart> charts, std::span<const std::uint32_t> 
   return chart_from_triangles(std::move(points), std::move(triangles));
 }
 
-std::uint32_t count_stacked(std::span<const Chart> charts) {
-  UnionFind groups = group_stacked(charts, kMostStackedSteps);
-  std::vector<std::uint32_t> size(charts.size(), 0);
-  for (std::uint32_t i = 0; i < charts.size(); ++i) ++size[groups.find(i)];
-  std::uint32_t stacked = 0;
-  for (const std::uint32_t n : size) stacked += n > 1 ? n : 0;
-  return stacked;
+void count_stacked(ChartSet& set) {
+  auto [groups, complete] = group_stacked(set.charts, kMostStackedSteps);
+  set.all_stacks_found = complete;
+  std::vector<std::uint32_t> size(set.charts.size(), 0);
+  for (std::uint32_t i = 0; i < size.size(); ++i) ++size[groups.find(i)];
+  for (const std::uint32_t n : size) set.stacked += n > 1 ? n : 0;
 }
 
 void keep_stacks(const Mesh& mesh, ChartSet& set) {
   const auto count = static_cast<std::uint32_t>(set.charts.size());
-  UnionFind groups = group_stacked(set.charts, kMostKeepSteps);
+  auto [groups, complete] = group_stacked(set.charts, kMostKeepSteps);
+  set.all_stacks_found = complete;
   std::vector<std::uint32_t> stack_of(count), point_offset(count, 0);
   std::vector<std::vector<std::uint32_t>> stacks;
   for (std::uint32_t chart = 0; chart < count; ++chart) {
@@ -176,7 +176,7 @@ Result<ChartSet> build_charts(const Mesh& mesh, Stacked stacked) {
   if (stacked == Stacked::keep) {
     keep_stacks(mesh, set);
   } else {
-    set.stacked = count_stacked(set.charts);
+    count_stacked(set);
   }
   return set;
 }

@@ -78,7 +78,7 @@ void join(std::vector<std::uint32_t>& into, std::vector<std::uint32_t>& from) {
 
 }  // namespace
 
-UnionFind group_stacked(std::span<const Chart> charts, double most_steps) {
+StackedGroups group_stacked(std::span<const Chart> charts, double most_steps) {
   std::vector<std::uint32_t> order;
   for (std::uint32_t i = 0; i < charts.size(); ++i) {
     if (charts[i].area > 0) order.push_back(i);
@@ -86,21 +86,24 @@ UnionFind group_stacked(std::span<const Chart> charts, double most_steps) {
   std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
     return charts[a].box.min.x < charts[b].box.min.x;
   });
-  UnionFind groups(charts.size());
+  StackedGroups found{UnionFind(charts.size())};
   PairTest pair;
   OpenSets open;
   for (const std::uint32_t i : order) {
     std::vector<std::uint32_t> joined{i};
     for (std::vector<std::uint32_t>& set : open) {
       if (!touches_set(charts, i, set, pair)) continue;
-      groups.unite(i, set.front());
+      found.groups.unite(i, set.front());
       join(joined, set);
     }
     std::erase_if(open, [](const auto& set) { return set.empty(); });
     open.push_back(std::move(joined));
-    if (pair.steps > most_steps) break;
+    if (pair.steps > most_steps && i != order.back()) {
+      found.complete = false;
+      break;
+    }
   }
-  return groups;
+  return found;
 }
 
 }  // namespace wrapatlas

@@ -14,9 +14,14 @@ namespace wrapatlas {
 /// what rounding does to charts that touch.
 inline constexpr double kStackedShare = 1e-6;
 
+struct StackedGroups {
+  UnionFind groups;
+  bool complete = true;  ///< false: the search ended early, and some stacks may not be found
+};
+
 /// The sets of charts that are stacked with each other, directly or over others. After about
-/// `most_steps` outline edges looked at the search ends, and some stacks may not be found.
-/// Sweeps over boxes; pairs within a set that is known already cost nothing.
-UnionFind group_stacked(std::span<const Chart> charts, double most_steps);
+/// `most_steps` outline edges looked at the search ends. Sweeps over boxes; pairs within a set that
+/// is known already cost nothing.
+StackedGroups group_stacked(std::span<const Chart> charts, double most_steps);
 
 }  // namespace wrapatlas

@@ -3,6 +3,7 @@
 
 #include <random>
 
+#include "charts/stacked.h"
 #include "uv_mesh.h"
 #include "wrapatlas/charts.h"
 
@@ -198,6 +199,20 @@ double common_area(std::vector<Vec2> polygon, std::vector<Vec2> cutter) {
     area += 0.5 * std::abs(signed_area2(polygon[0], polygon[i - 1], polygon[i]));
   }
   return area;
+}
+
+TEST(Stacked, SaysWhetherTheSearchCameToItsEnd) {
+  MeshBuilder b;
+  for (int i = 0; i < 4; ++i) {  // slanted strips: boxes overlap, charts do not
+    const double y = 0.2 * i;
+    b.flat_face({{0, y}, {9, y + 9}, {9, y + 9.1}, {0, y + 0.1}}, i);
+  }
+  const ChartSet set = charts_of(b.mesh);
+  EXPECT_TRUE(set.all_stacks_found);
+  EXPECT_EQ(set.stacked, 0U);
+  EXPECT_TRUE(group_stacked(set.charts, 1e6).complete);
+  EXPECT_FALSE(group_stacked(set.charts, 1).complete);
+  EXPECT_TRUE(group_stacked(std::span(set.charts).first(1), 0).complete);
 }
 
 TEST(Stacked, AgreesWithAllPairs) {

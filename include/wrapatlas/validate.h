@@ -14,8 +14,9 @@ namespace wrapatlas {
 struct CheckOptions {
   int width = 1024, height = 1024;  ///< texels of the atlas
   Wrap wrap = Wrap::none;
+  Wrap cut = Wrap::none;          ///< axes whose sides charts were cut at: no margin is owed there
   double padding = 0;             ///< texels that must lie between charts
-  double margin = 0;              ///< texels to a side that does not wrap
+  double margin = 0;              ///< texels to a side that neither wraps nor was cut at
   double tolerance = 1e-3;        ///< texels by which a chart may differ from a similarity copy
   bool stacked_ok = false;        ///< charts that overlap in the reference may overlap here
   std::size_t max_findings = 20;  ///< how many violations to describe in words
@@ -47,14 +48,16 @@ struct CheckReport {
   std::size_t violations = 0;  ///< all, also those past max_findings
   std::vector<Finding> findings;
   std::vector<std::string> remarks;  ///< defects of the input that are not the packing's fault
-  double smallest_gap = 0;  ///< texels, over all pairs closer than search reach; else reach
+  double gap_reach = 0;              ///< texels: gaps from here on are not looked for
+  double smallest_gap = 0;  ///< texels, between charts closer than gap_reach; else gap_reach
   double efficiency = 0;    ///< covered area / (width * height)
   double scale = 0;         ///< texels per reference UV unit; 0 without a reference
   [[nodiscard]] bool ok() const { return violations == 0; }
 };
 
 /// Checks a finished atlas by exact triangles (see docs/algorithms/validation.md). `reference`
-/// may be null: then only overlap, gap, bounds and wrap are judged. Errors: input (meshes that
+/// may be null: then only overlap, gap, bounds and margin are judged, and pieces that fit together
+/// at the border of the atlas count as one chart that was cut there. Errors: input (meshes that
 /// cannot be compared).
 Result<CheckReport> check_atlas(const Mesh& atlas, const Mesh* reference,
                                 const CheckOptions& options);

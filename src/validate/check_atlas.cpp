@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "validate/checker.h"
+#include "validate/cut_pieces.h"
 
 namespace wrapatlas {
 namespace validate {
@@ -35,6 +36,22 @@ Error with_prefix(const char* whose, Error error) {
 
 }  // namespace
 
+/// Without a reference: charts are what fits together, also across the border.
+void Checker::take_pieces_for_charts(const FaceCharts& own) {
+  CutCharts cut = join_cut_pieces(atlas_, own);
+  report_.charts = cut.charts.count;
+  face_chart_ = std::move(cut.charts.of_face);
+  fits_.face_shift = std::move(cut.face_shift);
+  if (cut.charts.count < own.count) {
+    report_.remarks.push_back(
+        fmt::format("{} pieces fit together at the border: they count as {} charts cut there",
+                    own.count, cut.charts.count));
+  }
+  if (options_.stacked_ok) {
+    report_.remarks.emplace_back("which charts were stacked cannot be known without a reference");
+  }
+}
+
 Result<CheckReport> Checker::run() {
   report_.faces = atlas_.face_count();
   for (std::size_t f = 0; f < atlas_.face_count(); ++f) {
@@ -42,11 +59,7 @@ Result<CheckReport> Checker::run() {
   }
   FaceCharts own = connect_faces(atlas_);
   if (reference_ == nullptr) {
-    face_chart_ = std::move(own.of_face);
-    report_.charts = own.count;
-    if (options_.stacked_ok) {
-      report_.remarks.emplace_back("which charts were stacked cannot be known without a reference");
-    }
+    take_pieces_for_charts(own);
   } else if (Status status = compare(own); !status) {
     return status.error();
   }
@@ -56,8 +69,8 @@ Result<CheckReport> Checker::run() {
   if (reference_ != nullptr) {
     fit(own.of_face);
     check_areas_of_faces();
-    if (Status status = reassemble(); !status) return status.error();
   }
+  if (Status status = reassemble(); !status) return status.error();
   if (Status status = check_distances(); !status) return status.error();
   if (Status status = remark_folds(); !status) return status.error();
   return std::move(report_);

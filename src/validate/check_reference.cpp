@@ -162,7 +162,7 @@ Status Checker::find_stacks_of_reference() {
 Status Checker::reassemble() {
   stack_.resize(report_.charts);
   for (std::uint32_t i = 0; i < report_.charts; ++i) stack_[i] = i;
-  if (options_.stacked_ok) {
+  if (options_.stacked_ok && reference_ != nullptr) {
     if (Status status = find_stacks_of_reference(); !status) return status;
   }
   std::vector<std::array<double, 2>> to_stack(report_.charts);

@@ -18,29 +18,36 @@ void Checker::check_sides() {
     double clearance = std::numeric_limits<double>::infinity();
     std::uint32_t face = kNone;
     Vec2 at;
+    void meet(double other, const Item& item, Vec2 p) {
+      if (other < clearance) *this = {other, item.face, p};
+    }
   };
-  std::vector<Worst> worst(report_.charts);
+  std::vector<Worst> outside(report_.charts), near(report_.charts);
+  const std::array<bool, 2> cut{wraps_u(options_.cut), wraps_v(options_.cut)};
   for (const Item& item : items_) {
     area += std::abs(signed_area2(item.corners[0], item.corners[1], item.corners[2])) / 2;
-    Worst& of_chart = worst[item.chart];
     for (const Vec2 p : item.corners) {
-      double clearance = std::numeric_limits<double>::infinity();
-      if (!wraps_[0]) clearance = std::min({clearance, p.x, size_.x - p.x});
-      if (!wraps_[1]) clearance = std::min({clearance, p.y, size_.y - p.y});
-      if (clearance < of_chart.clearance) of_chart = {clearance, item.face, p};
+      const std::array<double, 2> clearance{std::min(p.x, size_.x - p.x),
+                                            std::min(p.y, size_.y - p.y)};
+      for (std::size_t axis = 0; axis < 2; ++axis) {
+        if (wraps_[axis]) continue;
+        outside[item.chart].meet(clearance[axis], item, p);
+        if (!cut[axis]) near[item.chart].meet(clearance[axis], item, p);
+      }
     }
   }
   report_.efficiency = area / (size_.x * size_.y);
-  for (std::uint32_t i = 0; i < worst.size(); ++i) {
-    const auto& [clearance, face, at] = worst[i];
+  for (std::uint32_t i = 0; i < outside.size(); ++i) {
     const double tolerance = kSlack + rounding_[i];
-    if (clearance < -tolerance) {
+    if (outside[i].clearance < -tolerance) {
+      const auto& [clearance, face, at] = outside[i];
       findings_.add(
           {Violation::bounds, i, kNone, face, kNone, -clearance,
            fmt::format("chart {} lies {:.6g} texels outside the atlas at ({:.3f}, {:.3f}) "
                        "(face {})",
                        i, -clearance, at.x, at.y, face)});
-    } else if (clearance < options_.margin - tolerance) {
+    } else if (near[i].clearance < options_.margin - tolerance) {
+      const auto& [clearance, face, at] = near[i];
       findings_.add(
           {Violation::margin, i, kNone, face, kNone, clearance,
            fmt::format("chart {} comes within {:.6g} texels of a side at ({:.3f}, {:.3f}) "
@@ -58,6 +65,7 @@ Status Checker::check_distances() {
       find_close_pairs(items_, period, {options_.padding, reach, rounding_, options_.threads});
   if (!close) return close.error();
   report_.smallest_gap = close->smallest_gap;
+  report_.gap_reach = reach;
   for (const PairRecord& record : close->records) {
     Finding finding{record.kind,
                     record.chart_a,

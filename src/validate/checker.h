@@ -27,6 +27,7 @@ class Checker {
   Result<CheckReport> run();
 
  private:
+  void take_pieces_for_charts(const FaceCharts& own);
   Status compare(const FaceCharts& own);
   void fit(const std::vector<std::uint32_t>& face_piece);
   void check_areas_of_faces();

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <set>
 
 namespace wrapatlas {
 namespace {
@@ -37,6 +38,21 @@ class Reader {
       }
     }
     return Done{};
+  }
+
+  /// The UV set that was asked for is in some primitive, or there is no other that could be meant.
+  [[nodiscard]] Status check_texcoord_name() const {
+    const bool first = contents_.texcoord_name == "TEXCOORD_0";
+    if (texcoord_names_.count(contents_.texcoord_name) != 0) return Done{};
+    if (first && texcoord_names_.empty()) return Done{};
+    if (texcoord_names_.empty()) {
+      return file_.error("",
+                         fmt::format("it has no {}, nor any other UVs", contents_.texcoord_name),
+                         "unwrap it first");
+    }
+    return file_.error("", fmt::format("it has no UV set {}", contents_.texcoord_name),
+                       fmt::format("it has {}: choose one by --texcoord and its number",
+                                   fmt::join(texcoord_names_, ", ")));
   }
 
   void remark(std::vector<std::string>& remarks) const {
@@ -111,6 +127,7 @@ class Reader {
       if (!accessor) return accessor.error();
       if (accessor->count != points->count) return wrong_count(*accessor, name, points->count);
       if (name == contents_.texcoord_name) texcoords = *accessor;
+      if (name.starts_with("TEXCOORD_")) texcoord_names_.insert(name);
     }
     if (Status added = add_points(*points, mesh_.positions, position_base_); !added) return added;
     primitive.first_position = position_base_[points->index];
@@ -233,6 +250,7 @@ class Reader {
   std::vector<std::uint32_t> position_base_, texcoord_base_;  ///< per accessor
   std::uint32_t first_texcoord_ = kNone;
   std::string place_;
+  std::set<std::string> texcoord_names_;  ///< of all UV sets that there are
   std::size_t not_triangles_ = 0, without_position_ = 0, without_texcoords_ = 0;
   std::size_t faces_without_texcoords_ = 0, ragged_ = 0, draco_ = 0, moving_texcoords_ = 0;
 };
@@ -241,9 +259,10 @@ class Reader {
 
 Status read_primitives(GltfContents& contents, Mesh& mesh, std::vector<std::string>& remarks) {
   Reader reader(contents, mesh);
-  Status read = reader.read_all();
-  if (read) reader.remark(remarks);
-  return read;
+  if (Status read = reader.read_all(); !read) return read;
+  if (Status found = reader.check_texcoord_name(); !found) return found;
+  reader.remark(remarks);
+  return Done{};
 }
 
 }  // namespace wrapatlas

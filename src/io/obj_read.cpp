@@ -32,7 +32,8 @@ class ObjReader {
     for (ObjLine line; lines.next(line);) {
       ObjWords words(line.text);
       bool fine = true;
-      switch (obj_keyword(words.next())) {
+      const std::string_view first = words.next();
+      switch (obj_keyword(first)) {
         case ObjKeyword::v:
           fine = read_position(words);
           break;
@@ -46,12 +47,14 @@ class ObjReader {
           fine = read_face(words);
           break;
         default:
+          if (first == "mtllib") read_material_file(words);
           break;
       }
       if (!fine) return error_at(line.number);
     }
     return check_forward_references();
   }
+  [[nodiscard]] std::vector<std::string> material_files() && { return std::move(material_files_); }
 
  private:
   bool fail(std::string what, std::string remedy) {
@@ -67,6 +70,14 @@ class ObjReader {
     if (word.empty()) return fail("a coordinate is missing", "export the mesh again");
     return fail(fmt::format("'{}' is not a usable coordinate", word.substr(0, 40)),
                 "export the mesh again without NaN, infinite or huge values");
+  }
+
+  /// From the first word to the last: names may hold spaces.
+  void read_material_file(ObjWords& words) {
+    const std::string_view first = words.next();
+    std::string_view last = first;
+    for (std::string_view word = first; !word.empty(); word = words.next()) last = word;
+    if (!first.empty()) material_files_.emplace_back(first.data(), last.data() + last.size());
   }
 
   bool read_position(ObjWords& words) {
@@ -157,6 +168,7 @@ class ObjReader {
   }
 
   std::string_view bytes_, name_;
+  std::vector<std::string> material_files_;
   Mesh mesh_;
   std::size_t normal_count_ = 0, normals_needed_ = 0, face_of_last_normal_ = 0;
   std::string what_, remedy_;
@@ -165,9 +177,11 @@ class ObjReader {
 }  // namespace
 
 Result<Model> read_obj(std::string bytes, std::string_view name) {
-  Result<Mesh> mesh = ObjReader(bytes, name).read();
+  ObjReader reader(bytes, name);
+  Result<Mesh> mesh = reader.read();
   if (!mesh) return mesh.error();
   Model model;
+  model.material_files = std::move(reader).material_files();
   model.mesh = *std::move(mesh);
   model.format = FileFormat::obj;
   model.source = std::make_unique<ObjSource>(std::move(bytes));

@@ -40,19 +40,19 @@ struct Progress {
 
 struct PackOptions {
   Method method = Method::modulo;
-  Wrap wrap = Wrap::uv;  ///< the baselines know `none` only
-  int width = 1024;      ///< of the final texture, texels
-  int height = 1024;
+  Wrap wrap = Wrap::uv;        ///< the baselines know `none` only
+  int width = 1024;            ///< texels of the final texture; 1 to 65536
+  int height = 1024;           ///< the same
   bool search_aspect = false;  ///< try the paper's 31 ratios of the area width * height
-  double padding = 2;          ///< texels between charts, Euclidean; 0 or more
-  double margin = -1;          ///< texels to a side that does not wrap; < 0: half the padding
-  int block = 1;               ///< no two charts share a block of this many texels a side
-  int rotations = 16;          ///< angles a chart is tried at, uniform over the circle
+  double padding = 2;          ///< texels between charts, Euclidean; 0 to 4096
+  double margin = -1;  ///< texels to a side that does not wrap; to 65536; < 0: half the padding
+  int block = 1;       ///< 1 to 64: no two charts share a block of this many texels a side
+  int rotations = 16;  ///< 1 to 3600: angles a chart is tried at, uniform over the circle
   RotationBase rotation_base = RotationBase::input;
-  int grid = 0;  ///< cells along the longer side of the search grid; 0: chosen
+  int grid = 0;  ///< cells along the longer side of the search grid, up to 8192; 0: chosen
   Coverage coverage = Coverage::conservative;
-  double start_upper = 1.0;  ///< upper end of the scale search at its start (the paper: 0.9)
-  double lambda = 1.1;       ///< penalty of outer placements (modulo)
+  double start_upper = 1.0;  ///< upper end of the scale search at its start, in (0, 1] (paper: 0.9)
+  double lambda = 1.1;       ///< penalty of outer placements (modulo), 0 to 1e6
   bool inner = true;         ///< modulo: also try the four inner strategies
   bool all_sides = false;    ///< zsgs04: try all four sides for every chart
   int threads = 0;           ///< 0: as many as the machine has; never changes the result

@@ -6,6 +6,7 @@
 #include <array>
 #include <optional>
 
+#include "check_hints.h"
 #include "common.h"
 #include "options.h"
 #include "wrapatlas/model.h"
@@ -19,6 +20,8 @@ struct CheckArguments {
   Resolution resolution;
   Stacked stacked = Stacked::separate;
   CheckOptions options;
+  GivenPromise given;
+  std::vector<std::string> hints, unchecked;
   int texcoord = 0;
   bool quiet = false, verbose = false;
 };
@@ -34,27 +37,35 @@ Json to_json(const CheckArguments& arguments, const CheckReport& report, double 
                         {"amount", finding.amount},
                         {"text", finding.text}});
   }
-  return {{"version", WRAPATLAS_VERSION},
-          {"command", "check"},
-          {"input", arguments.input},
-          {"reference", arguments.reference},
-          {"wrap", name_of(kWraps, arguments.options.wrap)},
-          {"width", arguments.options.width},
-          {"height", arguments.options.height},
-          {"padding", arguments.options.padding},
-          {"margin", arguments.options.margin},
-          {"ok", report.ok()},
-          {"violations", report.violations},
-          {"charts", report.charts},
-          {"faces", report.faces},
-          {"faces_without_uv", report.faces_without_uv},
-          {"smallest_gap", report.smallest_gap},
-          {"efficiency", report.efficiency},
-          {"scale", report.scale},
-          {"findings", findings},
-          {"remarks", report.remarks},
-          {"seconds", {{"total", seconds}}},
-          {"peak_memory_mb", peak_memory_mb()}};
+  return {
+      {"version", WRAPATLAS_VERSION},
+      {"command", "check"},
+      {"input", arguments.input},
+      {"reference", arguments.reference},
+      {"wrap", name_of(kWraps, arguments.options.wrap)},
+      {"cut", name_of(kWraps, arguments.options.cut)},
+      {"width", arguments.options.width},
+      {"height", arguments.options.height},
+      {"padding", arguments.options.padding},
+      {"margin", arguments.options.margin},
+      {"stacked", name_of(kStacked, arguments.stacked)},
+      {"texcoord", arguments.texcoord},
+      {"ok", report.ok()},
+      {"violations", report.violations},
+      {"charts", report.charts},
+      {"faces", report.faces},
+      {"faces_without_uv", report.faces_without_uv},
+      {"smallest_gap", report.smallest_gap < report.gap_reach ? Json(report.smallest_gap) : Json()},
+      {"gaps_sought_below", report.gap_reach},
+      {"efficiency", report.efficiency},
+      {"scale", report.scale},
+      {"findings", findings},
+      {"remarks", report.remarks},
+      {"hints", arguments.hints},
+      {"not_checked", arguments.unchecked},
+      {"seconds", {{"total", seconds}}},
+      {"peak_memory_mb", peak_memory_mb()},
+      {"threads", arguments.options.threads}};
 }
 
 /// Defects of the input, a few of them unless all are asked for.
@@ -69,6 +80,22 @@ void print_notes(const CheckArguments& arguments, const CheckReport& report) {
     say("{}: note: and {} more like these (--verbose shows all)\n", arguments.input,
         report.remarks.size() - shown);
   }
+}
+
+void print_report(const CheckArguments& arguments, const CheckReport& report) {
+  const std::string& name = arguments.input;
+  const CheckOptions& options = arguments.options;
+  print_notes(arguments, report);
+  for (const Finding& finding : report.findings) say("{}: {}\n", name, finding.text);
+  if (report.violations > report.findings.size()) {
+    say("{}: and {} more\n", name, report.violations - report.findings.size());
+  }
+  for (const std::string& hint : arguments.hints) say("{}: hint: {}\n", name, hint);
+  for (const std::string& what : arguments.unchecked) say("{}: not checked: {}\n", name, what);
+  say("{}: {}: {}, {:.1f} % in use; {} x {} texels, wrap {}, padding {}, margin {}\n", name,
+      report.ok() ? "ok" : quantity(report.violations, "violation"),
+      quantity(report.charts, "chart"), 100 * report.efficiency, options.width, options.height,
+      name_of(kWraps, options.wrap), options.padding, options.margin);
 }
 
 /// glTF counts v from the top, the other formats from the bottom.
@@ -91,15 +118,22 @@ Status resolve_options(const CLI::App& app, CheckArguments& arguments) {
         fmt::format("no less than a side of {} x {} texels", options.width, options.height),
         "give less, or the --resolution of the atlas");
   }
+  const auto free = [&](bool (*on)(Wrap)) { return on(options.wrap) || on(options.cut); };
   const Ignored ignored[] = {
-      {"--margin", options.wrap == Wrap::uv && options.margin > 0,
-       "both axes wrap, so there are no sides to keep away from",
-       "leave it out, or give --wrap u, v or none"},
+      {"--margin", free(wraps_u) && free(wraps_v) && options.margin > 0,
+       "both axes wrap or were cut, so there are no sides to keep away from",
+       "leave it out, or give other --wrap or --cut"},
+      {"--cut",
+       (wraps_u(options.cut) && wraps_u(options.wrap)) ||
+           (wraps_v(options.cut) && wraps_v(options.wrap)),
+       "along an axis that wraps no margin is owed anyway", "name other axes, or leave it out"},
       {"--tolerance", arguments.reference.empty(), "there is no source to compare with",
        "add --ref MODEL"},
       {"--verbose", arguments.quiet, "it contradicts --quiet", "give one of them"},
   };
   if (const Status ok = refuse_ignored(app, ignored); !ok) return ok;
+  arguments.given = {app.count("--wrap") > 0, app.count("--resolution") > 0,
+                     app.count("--padding") > 0};
   const std::string inputs[] = {arguments.input, arguments.reference};
   return check_texcoord(arguments.texcoord, std::span(inputs, arguments.reference.empty() ? 1 : 2));
 }
@@ -119,7 +153,8 @@ int run(const CLI::App& app, CheckArguments& arguments) {
     reference = std::move(*loaded);
     if (reference->v_points_down != atlas->v_points_down) turn_upside_down(reference->mesh);
   }
-  const auto report = check_atlas(atlas->mesh, reference ? &reference->mesh : nullptr, options);
+  const Mesh* source = reference ? &reference->mesh : nullptr;
+  const auto report = check_atlas(atlas->mesh, source, options);
   if (!report) {
     Error error = report.error();
     error.where = arguments.input + (error.where.empty() ? "" : ": " + error.where);
@@ -129,23 +164,16 @@ int run(const CLI::App& app, CheckArguments& arguments) {
     return report_error({ErrorKind::input, arguments.input, "no face has UVs, so there is no atlas",
                          "check a model that was packed"});
   }
+  if (!arguments.quiet || !arguments.json.empty()) {
+    arguments.hints = check_hints(atlas->mesh, source, options, *report, arguments.given);
+  }
+  arguments.unchecked = unchecked(source != nullptr, options, arguments.given);
   if (!arguments.json.empty()) {
     const Status ok =
         write_json(arguments.json, to_json(arguments, *report, seconds_now() - start));
     if (!ok) return report_error(ok.error());
   }
-  if (!arguments.quiet) {
-    print_notes(arguments, *report);
-    for (const Finding& finding : report->findings) {
-      say("{}: {}\n", arguments.input, finding.text);
-    }
-    if (report->violations > report->findings.size()) {
-      say("{}: and {} more\n", arguments.input, report->violations - report->findings.size());
-    }
-    say("{}: {}: {}, {:.1f} % in use\n", arguments.input,
-        report->ok() ? "ok" : quantity(report->violations, "violation"),
-        quantity(report->charts, "chart"), 100 * report->efficiency);
-  }
+  if (!arguments.quiet) print_report(arguments, *report);
   return report->ok() ? 0 : 1;
 }
 
@@ -165,7 +193,9 @@ Command make_check_command(CLI::App& parser) {
   add_number(app, "--padding", a.options.padding, {0, kMostTexels, "texels"},
              "Texels that must lie between charts");
   add_number(app, "--margin", a.options.margin, {0, kMostTexels, "texels"},
-             "Texels that must lie between charts and a side that does not wrap");
+             "Texels that must lie between charts and a side, where it neither wraps nor was cut");
+  add_choice(app, "--cut", a.options.cut, kWraps,
+             "Axes along which it was cut (--export cut): charts may reach these sides");
   add_number(app, "--tolerance", a.options.tolerance, {0, kMostTexels, "texels"},
              "Texels by which a chart may differ from a similarity copy of its source");
   add_choice(app, "--stacked", a.stacked, kStacked,

@@ -24,11 +24,12 @@ std::optional<Error> check_result(const PackArguments& arguments, const Model& m
   CheckOptions options;
   options.width = packing.width;
   options.height = packing.height;
-  // A cut atlas must hold without any wrapping; the margin is then none's concern.
+  // A cut atlas must hold without any wrapping; charts reach the sides that they were cut at.
   const bool cut = arguments.export_mode == Export::cut;
   options.wrap = cut ? Wrap::none : packing.wrap;
+  options.cut = cut ? packing.wrap : Wrap::none;
   options.padding = arguments.options.padding;
-  options.margin = cut && packing.wrap != Wrap::none ? 0 : arguments.margin_in_force();
+  options.margin = arguments.margin_in_force();
   options.stacked_ok = arguments.stacked == Stacked::keep;
   options.threads = arguments.options.threads;
   const auto report = check_atlas(apply_atlas(model.mesh, atlas), &model.mesh, options);

@@ -41,6 +41,7 @@ Json describe_charts(const ChartSet& set) {
           {"uv_min", {box.min.x, box.min.y}},
           {"uv_max", {box.max.x, box.max.y}},
           {"stacked", set.stacked},
+          {"all_stacks_found", set.all_stacks_found},
           {"self_overlapping", set.self_overlapping},
           {"degenerate", set.degenerate},
           {"faces_without_uv", set.faces_without_uv}};
@@ -65,12 +66,13 @@ std::string to_text(const InfoArguments& arguments, const Model& model, const Js
                    "  chart area: total {:.4g}, smallest {:.4g}, median {:.4g}, largest {:.4g}\n",
                    charts["area"].get<double>(), charts["area_smallest"].get<double>(),
                    charts["area_median"].get<double>(), charts["area_largest"].get<double>());
-    fmt::format_to(
-        out,
-        "  {} charts overlap others, {} overlap themselves, {} have no area, {} faces have no "
-        "UVs\n",
-        charts["stacked"].get<unsigned>(), charts["self_overlapping"].get<unsigned>(),
-        charts["degenerate"].get<unsigned>(), charts["faces_without_uv"].get<unsigned>());
+    fmt::format_to(out, "  charts that overlap others: {}{}, that overlap themselves: {}\n",
+                   charts["stacked"].get<unsigned>(),
+                   charts["all_stacks_found"].get<bool>() ? "" : " or more (search ended early)",
+                   charts["self_overlapping"].get<unsigned>());
+    fmt::format_to(out, "  charts without area: {}, faces without UVs: {}\n",
+                   charts["degenerate"].get<unsigned>(),
+                   charts["faces_without_uv"].get<unsigned>());
   }
   for (const std::string& remark : model.remarks)
     fmt::format_to(out, "  note: {}\n", printable(remark));

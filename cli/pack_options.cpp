@@ -186,6 +186,12 @@ Status resolve_pack_options(const CLI::App& app, PackArguments& a) {
       a.padding.value_or(std::max(2.0, std::max(options.width, options.height) / 256.0));
   options.margin = a.margin.value_or(-1);
   options.inner = !a.no_inner;
+  if (options.method == Method::lprm02) {
+    options.rotations = 1;
+    if (app.count("--rotations") > 0) {
+      a.notes.emplace_back("lprm02 has one orientation a chart, whatever --rotations says");
+    }
+  }
   options.threads = threads_for(options.threads);
   if (const Status ok = refuse_useless(app, a); !ok) return ok;
   return check_texcoord(a.texcoord, std::span(&a.input, 1));

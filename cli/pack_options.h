@@ -23,7 +23,8 @@ struct PackArguments {
   int texcoord = 0;
   bool quiet = false, verbose = false, no_inner = false;
   PictureOptions picture;
-  PackOptions options;  ///< complete after resolve_pack_options
+  std::vector<std::string> notes;  ///< on the options, for the user
+  PackOptions options;             ///< complete after resolve_pack_options
 
   /// Texels to sides that do not wrap, as asked or by default.
   [[nodiscard]] double margin_in_force() const {

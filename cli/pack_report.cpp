@@ -2,7 +2,27 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
+
 namespace wrapatlas::cli {
+namespace {
+
+/// An OBJ in another folder does not find the material files that it names.
+void note_material_files(const PackArguments& arguments, const Model& model) {
+  const std::filesystem::path input = arguments.input, output = arguments.output;
+  const auto format = format_from_path(output);
+  if (!format || *format != FileFormat::obj) return;
+  for (const std::string& name : model.material_files) {
+    std::error_code none;
+    const auto from = input.parent_path() / name, to = output.parent_path() / name;
+    if (!std::filesystem::exists(from, none) || std::filesystem::exists(to, none)) continue;
+    say("{}: note: {}\n", arguments.input,
+        printable(fmt::format("{} will look for its materials in {}: copy {} there",
+                              output.string(), to.string(), from.string())));
+  }
+}
+
+}  // namespace
 
 Json pack_json(const PackArguments& arguments, const ChartSet& charts, const Packing& packing,
                const PackOutcome& outcome) {
@@ -20,9 +40,15 @@ Json pack_json(const PackArguments& arguments, const ChartSet& charts, const Pac
           {"charts", charts.charts.size()},
           {"placed", packing.placements.size()},
           {"stacked", charts.stacked},
+          {"stacked_mode", name_of(kStacked, arguments.stacked)},
+          {"all_stacks_found", charts.all_stacks_found},
           {"self_overlapping", charts.self_overlapping},
           {"faces_without_uv", charts.faces_without_uv},
+          {"texcoord", arguments.texcoord},
+          {"aspect", arguments.aspect.empty() ? Json() : Json(arguments.aspect)},
           {"padding", options.padding},
+          {"margin", packing.wrap == Wrap::uv ? Json() : Json(arguments.margin_in_force())},
+          {"block", options.block},
           {"coverage", name_of(kCoverages, options.coverage)},
           {"grid", {packing.grid_width, packing.grid_height}},
           {"rotations", options.rotations},
@@ -68,12 +94,22 @@ void print_pack_notes(const PackArguments& arguments, const Model& model, const 
   const auto note = [&](const std::string& text) {
     say("{}: note: {}\n", arguments.input, printable(text));
   };
+  for (const std::string& text : arguments.notes) note(text);
   for (const std::string& text : model.remarks) note(text);
-  if (charts.faces_without_uv > 0) {
-    note(fmt::format("{} faces have no UVs and stay as they are", charts.faces_without_uv));
+  note_material_files(arguments, model);
+  const std::size_t bare = charts.faces_without_uv, folded = charts.self_overlapping;
+  if (bare > 0) {
+    note(fmt::format("{} no UVs and {} as {}", quantity(bare, "face has", "faces have"),
+                     bare == 1 ? "stays" : "stay", bare == 1 ? "it is" : "they are"));
   }
-  if (charts.self_overlapping > 0) {
-    note(fmt::format("{} charts overlap themselves in the input", charts.self_overlapping));
+  if (folded > 0) {
+    note(fmt::format("{} in the input",
+                     quantity(folded, "chart overlaps itself", "charts overlap themselves")));
+  }
+  if (!charts.all_stacks_found) {
+    note(arguments.stacked == Stacked::keep
+             ? "not all charts that overlap others were found: some are separated"
+             : "not all charts that overlap others were looked for; all are separated");
   }
   if (arguments.verbose && charts.stacked > 0) {
     note(fmt::format("{} overlap others in the input and are {}", quantity(charts.stacked, "chart"),

@@ -1,9 +1,11 @@
 """The documentation against the program: options, links and examples that are there."""
 
+import json
 import os
 import pathlib
 import re
 import subprocess
+import tempfile
 import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -58,6 +60,31 @@ class Docs(unittest.TestCase):
         source = (ROOT / "docs/examples/pack_file.cpp").read_text(encoding="utf-8")
         shown = re.search(r"```cpp\n(.*?)```", readme, re.S).group(1)
         self.assertTrue(source.startswith(shown))
+
+    def test_every_key_of_the_reports_is_explained(self):
+        """And no other is. A key inside an object stands with it or by itself."""
+        page = (ROOT / "docs/reports.md").read_text(encoding="utf-8")
+        sections = dict(re.findall(r"^## (\w+)\n(.*?)(?=^## |\Z)", page, re.S | re.M))
+        with tempfile.TemporaryDirectory() as folder:
+            packed = pathlib.Path(folder) / "packed.glb"
+            sample = ROOT / "samples/coral.glb"
+            for command, arguments in (("pack", (sample, "-o", packed, "--grid", "64")),
+                                       ("check", (packed, "--padding", "9")), ("info", (sample,))):
+                run = subprocess.run([COMMAND, command, *arguments, "--json", "-"],
+                                     capture_output=True, text=True)
+                report = json.loads(run.stdout)
+                keys = set(report)
+                for value in report.values():
+                    value = value[0] if isinstance(value, list) and value else value
+                    keys |= set(value) if isinstance(value, dict) else set()
+                cells = re.findall(r"^\|(.*?)\|(.*)\|$", sections[command], re.M)
+                named = {key for key, _ in cells for key in re.findall(r"`([\w.]+)`", key)}
+                named = {part for key in named for part in key.split(".")}
+                told = {word for cell in cells for word in re.findall(r"`([\w.]+)`", cell[0] + cell[1])}
+                told = {part for key in told for part in key.split(".")}
+                with self.subTest(command):
+                    self.assertEqual(keys - told, set())
+                    self.assertEqual(named - keys, set())
 
 
 if __name__ == "__main__":

@@ -1,5 +1,6 @@
 """Charts that a packing can live with although they are odd, and those that do not fit."""
 
+import json
 import unittest
 
 import support
@@ -55,8 +56,23 @@ class Repairs(support.CommandTest):
 
     def test_a_chart_that_overlaps_itself_is_reported(self):
         ring = [(0, 0), (4, 0), (4, 2), (1, 2), (1, -1), (2, -1), (2, 1), (3, 1), (3, 1.5), (0, 1)]
-        self.assertIn("a.obj: note: 1 charts overlap themselves", self.notes(obj([ring])))
+        self.assertIn("a.obj: note: 1 chart overlaps itself in the input\n", self.notes(obj([ring])))
         self.pack_and_check(obj([ring, square(9)]))
+
+    def test_a_search_for_stacked_charts_that_ends_early_says_so(self):
+        """Slanted strips side by side: all boxes overlap, no charts do."""
+        strips = [[(0, y), (2000, y + 2000), (2000, y + 2000.5), (0, y + 0.5)]
+                  for y in range(1000)]
+        self.write("a.obj", obj(strips))
+        self.write("few.obj", obj(strips[:50]))
+        self.assertFalse(self.report("info", "a.obj")["charts"]["all_stacks_found"])
+        self.assertTrue(self.report("info", "few.obj")["charts"]["all_stacks_found"])
+        self.assertIn("0 or more", self.succeed("info", "a.obj").stdout)
+        result = self.succeed("pack", "a.obj", "-o", "b.obj", "--method", "lprm02", "--resolution",
+                              "2048", "--padding", "0", "--grid", "512", "--json", "b.json")
+        self.assertIn("a.obj: note: not all charts that overlap others were", result.stderr)
+        self.assertFalse(json.loads(self.path("b.json").read_text())["all_stacks_found"])
+        self.assertTrue(self.pack_report("few.obj", "b.obj")["all_stacks_found"])
 
     def test_duplicate_faces(self):
         twice = GOOD + "\n".join(obj_lines(GOOD, "f")) + "\n"
@@ -67,7 +83,7 @@ class Repairs(support.CommandTest):
         text = GOOD + "f 1 2 3\n"
         self.assertEqual(self.pack_and_check(text)["faces_without_uv"], 1)
         self.assertEqual(obj_lines(self.path("b.obj").read_text(), "f")[-1], "f 1 2 3")
-        self.assertIn("a.obj: note: 1 faces have no UVs and stay as they are", self.notes(text))
+        self.assertIn("a.obj: note: 1 face has no UVs and stays as it is\n", self.notes(text))
 
     def test_far_off_and_negative_uvs(self):
         self.pack_and_check(obj([square(-1000, 500), square(2000, -3)]))

@@ -259,6 +259,24 @@ class Outputs(support.CommandTest):
         self.pack("mosaic.ply", "mosaic.ply")
         self.assertEqual(self.path("mosaic.ply").read_bytes(), self.path("b.ply").read_bytes())
 
+    def test_uv_set_that_is_not_there(self):
+        self.write("a.glb", gltf_maker.two_uv_sets().glb())
+        self.refuse_pack(3, ("a.glb", "TEXCOORD_5", "TEXCOORD_0, TEXCOORD_1", "--texcoord"),
+                         "a.glb", "--texcoord", "5", output="new.glb")
+        self.refuse(3, ("TEXCOORD_0, TEXCOORD_1",), "info", "a.glb", "--texcoord", "2")
+
+    def test_materials_that_stay_behind(self):
+        """An OBJ in another folder does not find them, and is told to."""
+        self.sample("machine.obj")
+        self.sample("machine.mtl")
+        self.path("there").mkdir()
+        for output, missed in (("b.obj", False), ("there/b.obj", True), ("there/b.glb", False)):
+            result = self.succeed("pack", "machine.obj", "-o", output, *quick())
+            self.assertEqual("there/machine.mtl: copy machine.mtl there\n" in result.stderr, missed)
+        self.path("machine.mtl").rename(self.path("there/machine.mtl"))
+        result = self.succeed("pack", "machine.obj", "-o", "there/b.obj", *quick())
+        self.assertNotIn("machine.mtl", result.stderr)
+
     def test_second_uv_set(self):
         maker = gltf_maker.two_uv_sets()
         self.write("a.glb", maker.glb())
@@ -298,6 +316,27 @@ class Outputs(support.CommandTest):
         self.assertLessEqual(sum(seconds[part] for part in parts), seconds["total"] + 1e-6)
         self.assertGreaterEqual(min(seconds.values()), 0)
 
+    def test_report_of_what_was_asked(self):
+        self.write("a.glb", gltf_maker.two_uv_sets().glb())
+        keys = ("padding", "margin", "block", "aspect", "stacked_mode", "texcoord", "rotations")
+        for options, told in (
+                ((), (2, None, 1, None, "separate", 0, 4)),
+                (("--aspect", "2:1", "--wrap", "u", "--block", "4", "--texcoord", "1"),
+                 (2, 1, 4, "2:1", "separate", 1, 4)),
+                (("--wrap", "none", "--margin", "5", "--stacked", "keep", "--padding", "3"),
+                 (3, 5, 1, None, "keep", 0, 4)),
+                (("--method", "lprm02"), (2, 1, 1, None, "separate", 0, 1))):
+            with self.subTest(options):
+                report = self.pack_report("a.glb", "b.glb", *options)
+                self.assertEqual(tuple(report[key] for key in keys), told)
+                self.assertGreaterEqual(report["threads"], 1)
+
+    def test_rotations_of_a_method_with_one(self):
+        self.sample("coral.glb")
+        for method, noted in (("lprm02", True), ("swg03", False)):
+            result = self.succeed("pack", "coral.glb", "-o", "b.glb", *quick("--method", method))
+            self.assertEqual("coral.glb: note: lprm02 has one orientation" in result.stderr, noted)
+
     def test_report_as_a_file(self):
         self.sample("coral.glb")
         self.pack("coral.glb", "b.glb", "--json", "b.json")
@@ -319,7 +358,9 @@ class Outputs(support.CommandTest):
             pixels += body if kind == b"IDAT" else b""
             at += 12 + size
         self.assertEqual(len(zlib.decompress(pixels)), height * (1 + 3 * width))
-        for tiles, size in (((), "1024"), (("--image-tiles",), "2048")):
+        for tiles, size in (((), "1024"), (("--image-tiles",), "2048"),
+                            (("--image-size", "300"), "300"),
+                            (("--image-size", "300", "--image-tiles"), "600")):
             self.pack("coral.glb", "b.glb", "--image", "b.svg", *tiles)
             root = xml.etree.ElementTree.parse(self.path("b.svg")).getroot()
             self.assertTrue(root.tag.endswith("svg"))

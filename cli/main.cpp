@@ -22,6 +22,13 @@ int run(int argc, char** argv) {
   parser.set_help_all_flag("--help-all", "Help on every sub-command");
   parser.require_subcommand(1);
   parser.get_formatter()->column_width(34);
+  parser.footer(
+      "wrapatlas COMMAND --help lists the options of a command as --option CHOICES=DEFAULT or\n"
+      "--option LOWEST..HIGHEST=DEFAULT.\n"
+      "A first try:\n"
+      "  wrapatlas info model.glb\n"
+      "  wrapatlas pack model.glb -o packed.glb --resolution 2048 --padding 4 --image atlas.png\n"
+      "  wrapatlas check packed.glb --ref model.glb --resolution 2048 --padding 4 --wrap uv");
 
   const Command commands[] = {make_pack_command(parser), make_check_command(parser),
                               make_info_command(parser)};

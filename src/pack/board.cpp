@@ -50,10 +50,13 @@ bool Board::admits(const ChartRaster& chart) const {
   if (!wraps_y() && chart.height > height()) return false;
   if (chart.width <= width() && chart.height <= height()) return true;
   if (chart.cells > static_cast<std::int64_t>(width()) * height()) return false;
-  BitLanes folded(height(), width());
-  for (int y = 0; y < chart.height; ++y) {
-    std::uint64_t* target = folded.lane(y % height());
-    const bool twice = visit_shifted(chart.rows.bits.lane(y), chart.width, 0, width(),
+  // Whether cells meet does not change if chart and board are turned together.
+  const BitLanes& cells = *chart.unturned;
+  const bool across = chart.turns % 2 == 1;
+  BitLanes folded(across ? width() : height(), across ? height() : width());
+  for (int y = 0; y < cells.lanes; ++y) {
+    std::uint64_t* target = folded.lane(y % folded.lanes);
+    const bool twice = visit_shifted(cells.lane(y), cells.length, 0, folded.length,
                                      [target](int word, std::uint64_t bits) {
                                        if ((target[word] & bits) != 0) return true;
                                        target[word] |= bits;
@@ -64,22 +67,22 @@ bool Board::admits(const ChartRaster& chart) const {
   return true;
 }
 
-bool Board::collides(const ChartRaster& chart, int x, int y) const {
-  if (!wraps_x() && x + chart.width > width()) return true;
-  if (!wraps_y() && y + chart.height > height()) return true;
-  for (int i = 0; i < chart.height; ++i) {
+bool Board::collides(const CellViews& chart, int x, int y) const {
+  if (!wraps_x() && x + chart.rows.length > width()) return true;
+  if (!wraps_y() && y + chart.rows.lanes > height()) return true;
+  for (int i = 0; i < chart.rows.lanes; ++i) {
     const std::uint64_t* lane = rows_.lane((y + i) % height());
     const bool shared =
-        visit_shifted(chart.rows.bits.lane(i), chart.width, x, width(),
+        visit_shifted(chart.rows.lane(i), chart.rows.length, x, width(),
                       [lane](int word, std::uint64_t bits) { return (lane[word] & bits) != 0; });
     if (shared) return true;
   }
   return false;
 }
 
-void Board::add(const ChartRaster& chart, int x, int y) {
-  add_lanes(rows_, chart.rows.bits, y, x);
-  add_lanes(columns_, chart.columns.bits, x, y);
+void Board::add(const CellViews& chart, int x, int y) {
+  add_lanes(rows_, chart.rows, y, x);
+  add_lanes(columns_, chart.columns, x, y);
 }
 
 }  // namespace wrapatlas

@@ -30,10 +30,10 @@ class Board {
 
   /// Would the chart with its cell (0,0) at (x, y) leave the board or share a cell with what is
   /// there? Precondition: admits(chart); 0 <= x < width, 0 <= y < height.
-  [[nodiscard]] bool collides(const ChartRaster& chart, int x, int y) const;
+  [[nodiscard]] bool collides(const CellViews& chart, int x, int y) const;
 
   /// Marks the chart's cells. Precondition: !collides(chart, x, y).
-  void add(const ChartRaster& chart, int x, int y);
+  void add(const CellViews& chart, int x, int y);
 
  private:
   Wrap wrap_;

@@ -81,7 +81,7 @@ class Direction {
   [[nodiscard]] bool shares_outer() const { return length_wraps_; }
   [[nodiscard]] int length() const { return length_; }
   [[nodiscard]] int shifts(const Silhouette& chart) const {
-    return lanes_wrap_ ? outer_.lanes : outer_.lanes - chart.bits.lanes + 1;
+    return lanes_wrap_ ? outer_.lanes : outer_.lanes - chart.lanes + 1;
   }
   /// By how much a chart at [position, position + size) would stretch the occupied extent.
   [[nodiscard]] int growth(int position, int size) const {
@@ -169,8 +169,9 @@ class ModuloPlacer {
     placement.y = best_.along_y() ? best_.position : best_.shift;
     placement.x = (placement.x % task_.width + task_.width) % task_.width;
     placement.y = (placement.y % task_.height + task_.height) % task_.height;
-    if (board_.collides(raster, placement.x, placement.y)) return false;
-    board_.add(raster, placement.x, placement.y);
+    const CellViews cells = cells_of(raster);
+    if (board_.collides(cells, placement.x, placement.y)) return false;
+    board_.add(cells, placement.x, placement.y);
     along_y_.update(board_.columns(), placement.x, raster.width);
     along_x_.update(board_.rows(), placement.y, raster.height);
     return true;
@@ -226,7 +227,7 @@ class ModuloPlacer {
     candidate.outer = outer;
     candidate.shift = rest.shift;
     candidate.position = rest.position;
-    candidate.growth = direction.growth(rest.position, chart.bits.length);
+    candidate.growth = direction.growth(rest.position, chart.length);
     candidate.rotation = orientation.rotation;
     candidate.strategy =
         (orientation.along_y ? 0 : 4) + (outer ? 2 : 0) + (side == Side::high ? 1 : 0);

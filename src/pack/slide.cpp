@@ -18,7 +18,7 @@ constexpr int kTile = 64;  ///< shifts worked on together; their results stay in
     most[s] = std::numeric_limits<std::int16_t>::min();
     least[s] = std::numeric_limits<std::int16_t>::max();
   }
-  const int lanes = chart.bits.lanes;
+  const int lanes = chart.lanes;
   for (int c = 0; c < lanes; ++c) {
     const std::int16_t first = chart.first[static_cast<std::size_t>(c)];
     const std::int16_t last = chart.last[static_cast<std::size_t>(c)];

@@ -51,7 +51,7 @@ class FourSides {
     if (choice.placement.rotation < 0) return false;
     placement = choice.placement;
     const ChartRaster& raster = rasters[static_cast<std::size_t>(placement.rotation)];
-    board_.add(raster, placement.x, placement.y);
+    board_.add(cells_of(raster), placement.x, placement.y);
     stretch(extent_x_, placement.x, raster.width);
     stretch(extent_y_, placement.y, raster.height);
     return true;
@@ -72,8 +72,8 @@ class FourSides {
       for (std::size_t i = 0; i < rasters.size(); ++i) {
         if (rasters[i].width == 0) continue;
         const Silhouette& chart = along_y ? rasters[i].columns : rasters[i].rows;
-        const int size = chart.bits.lanes;
-        if (size > across_limit || chart.bits.length > along_limit) continue;
+        const int size = chart.lanes;
+        if (size > across_limit || chart.length > along_limit) continue;
         if (chart.hollow >= choice.waste) continue;  // no gap can make up for it
         const int a = across.begin, b = across.end - size;
         const int begin = std::min(a, b), end = std::max(a, b) + 1;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "raster/row_scan.h"
+#include "raster/silhouette.h"
 
 namespace wrapatlas {
 namespace {
@@ -107,34 +108,6 @@ void cover_triangle(const std::array<Vec2, 3>& corner, Coverage coverage, BitLan
       set_centres(rows, y, cells);
     }
   }
-}
-
-Silhouette make_silhouette(BitLanes bits) {
-  Silhouette result;
-  const auto lanes = static_cast<std::size_t>(bits.lanes);
-  result.first.resize(lanes);
-  result.last.resize(lanes);
-  std::int32_t spanned = 0;
-  for (std::size_t i = 0; i < lanes; ++i) {
-    const std::uint64_t* lane = bits.lane(static_cast<int>(i));
-    const int last = last_set(lane, bits.length);
-    const int first = last < 0 ? 1 : next_set(lane, bits.length, 0);
-    result.first[i] = static_cast<std::int16_t>(first);
-    result.last[i] = static_cast<std::int16_t>(last < 0 ? 0 : last);
-    if (last < 0) continue;
-    const auto lane_number = static_cast<std::int32_t>(i);
-    if (result.filled.empty() || result.filled.back().end != lane_number) {
-      result.filled.push_back({lane_number, lane_number});
-    }
-    ++result.filled.back().end;
-    ++result.filled_lanes;
-    result.sum_first += first;
-    result.sum_last += last;
-    spanned += last - first + 1;
-  }
-  result.hollow = spanned - static_cast<std::int32_t>(count_set(bits));
-  result.bits = std::move(bits);
-  return result;
 }
 
 /// The covered part of a raster: centre coverage can leave its outermost rows and columns bare.
@@ -255,8 +228,9 @@ ChartRaster rasterize(const RasterShape& shape, const RasterScale& scale, double
     raster.width = rows.length;
     raster.height = rows.lanes;
   }
-  raster.columns = make_silhouette(transposed(rows));
-  raster.rows = make_silhouette(std::move(rows));
+  raster.rows = lane_silhouette(rows, raster.cells);
+  raster.columns = cross_silhouette(rows, raster.cells);
+  raster.unturned = std::make_shared<const BitLanes>(std::move(rows));
   return raster;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "raster/bits.h"
@@ -35,7 +36,8 @@ struct RasterScale {
 
 /// One direction's view of a raster: its columns, or its rows.
 struct Silhouette {
-  BitLanes bits;                    ///< a lane per column (row)
+  int lanes = 0;                    ///< columns (rows)
+  int length = 0;                   ///< cells of a lane
   std::vector<std::int16_t> first;  ///< horizon: first covered cell of a lane; > last if empty
   std::vector<std::int16_t> last;   ///< horizon: last covered cell of a lane
   struct LaneRun {
@@ -57,6 +59,15 @@ struct ChartRaster {
   double angle = 0;           ///< radians
   Vec2 offset;               ///< cell-space position of chart point p: M p + offset, for cell (0,0)
   Silhouette columns, rows;  ///< the same cells seen along y and along x
+  /// The cells, a lane per row, before `turns` quarter turns: many rotations of a chart are looked
+  /// at by their silhouettes alone, so cells_of() turns them when they are needed.
+  std::shared_ptr<const BitLanes> unturned;
+  int turns = 0;
+};
+
+/// The cells of a raster from both directions.
+struct CellViews {
+  BitLanes columns, rows;  ///< a lane per column, a lane per row
 };
 
 /// Rasterises a shape. `conservative`: every cell that the shape, grown by a disc of `growth`
@@ -68,7 +79,10 @@ ChartRaster rasterize(const RasterShape& shape, const RasterScale& scale, double
                       int max_side = kMaxRasterSide);
 
 /// The raster of the same chart turned by +90 degrees, for grids of square cells. `angle` is left
-/// to the caller. O(cells / 64).
+/// to the caller. O(width + height).
 ChartRaster quarter_turned(const ChartRaster& raster);
+
+/// The cells of a raster that was made (its width is not 0). O(cells / 64).
+CellViews cells_of(const ChartRaster& raster);
 
 }  // namespace wrapatlas

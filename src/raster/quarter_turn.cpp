@@ -15,35 +15,36 @@ std::uint64_t reversed_bits(std::uint64_t bits) {
   return __builtin_bswap64(bits);
 }
 
-/// A silhouette of the same size and sums, its lanes yet to be filled.
-Silhouette blank_like(const Silhouette& source) {
-  Silhouette result;
-  result.bits = BitLanes(source.bits.lanes, source.bits.length);
-  result.filled_lanes = source.filled_lanes;
-  result.sum_first = source.sum_first;
-  result.sum_last = source.sum_last;
-  result.hollow = source.hollow;
-  return result;
-}
-
-/// The same lanes, each read from its other end.
-Silhouette positions_reversed(const Silhouette& source) {
-  Silhouette result = blank_like(source);
-  result.filled = source.filled;
-  result.first = source.last;
-  result.last = source.first;
-  const int words = source.bits.words, spare = words * kWordBits - source.bits.length;
-  const auto top = static_cast<std::int16_t>(source.bits.length - 1);
-  for (int lane = 0; lane < source.bits.lanes; ++lane) {
-    const std::uint64_t* from = source.bits.lane(lane);
-    std::uint64_t* to = result.bits.lane(lane);
+BitLanes positions_reversed(const BitLanes& source) {
+  BitLanes result(source.lanes, source.length);
+  const int words = source.words, spare = words * kWordBits - source.length;
+  for (int lane = 0; lane < source.lanes; ++lane) {
+    const std::uint64_t* from = source.lane(lane);
+    std::uint64_t* to = result.lane(lane);
     for (int word = 0; word < words; ++word) {
       to[word] = reversed_bits(from[words - 1 - word]) >> spare;
       if (spare > 0 && word + 1 < words) {
         to[word] |= reversed_bits(from[words - 2 - word]) << (kWordBits - spare);
       }
     }
-    const auto i = static_cast<std::size_t>(lane);
+  }
+  return result;
+}
+
+BitLanes lanes_reversed(const BitLanes& source) {
+  BitLanes result(source.lanes, source.length);
+  for (int lane = 0; lane < source.lanes; ++lane) {
+    const std::uint64_t* from = source.lane(source.lanes - 1 - lane);
+    std::copy(from, from + source.words, result.lane(lane));
+  }
+  return result;
+}
+
+/// The same lanes, each read from its other end.
+Silhouette positions_reversed(const Silhouette& source) {
+  Silhouette result = source;
+  const int top = source.length - 1;
+  for (std::size_t i = 0; i < source.first.size(); ++i) {
     const bool filled = source.first[i] <= source.last[i];
     result.first[i] = static_cast<std::int16_t>(filled ? top - source.last[i] : 1);
     result.last[i] = static_cast<std::int16_t>(filled ? top - source.first[i] : 0);
@@ -55,15 +56,12 @@ Silhouette positions_reversed(const Silhouette& source) {
 
 /// The same lanes, the last one first.
 Silhouette lanes_reversed(const Silhouette& source) {
-  Silhouette result = blank_like(source);
-  for (int lane = 0; lane < source.bits.lanes; ++lane) {
-    const std::uint64_t* from = source.bits.lane(source.bits.lanes - 1 - lane);
-    std::copy(from, from + source.bits.words, result.bits.lane(lane));
-  }
-  result.first.assign(source.first.rbegin(), source.first.rend());
-  result.last.assign(source.last.rbegin(), source.last.rend());
-  for (auto run = source.filled.rbegin(); run != source.filled.rend(); ++run) {
-    result.filled.push_back({source.bits.lanes - run->end, source.bits.lanes - run->begin});
+  Silhouette result = source;
+  std::reverse(result.first.begin(), result.first.end());
+  std::reverse(result.last.begin(), result.last.end());
+  std::reverse(result.filled.begin(), result.filled.end());
+  for (Silhouette::LaneRun& run : result.filled) {
+    run = {source.lanes - run.end, source.lanes - run.begin};
   }
   return result;
 }
@@ -80,7 +78,21 @@ ChartRaster quarter_turned(const ChartRaster& raster) {
   if (raster.width == 0) return turned;
   turned.columns = lanes_reversed(raster.rows);
   turned.rows = positions_reversed(raster.columns);
+  turned.unturned = raster.unturned;
+  turned.turns = (raster.turns + 1) % 4;
   return turned;
+}
+
+CellViews cells_of(const ChartRaster& raster) {
+  CellViews views{transposed(*raster.unturned), *raster.unturned};
+  if (raster.turns >= 2) {
+    views.columns = lanes_reversed(positions_reversed(views.columns));
+    views.rows = lanes_reversed(positions_reversed(views.rows));
+  }
+  if (raster.turns % 2 == 1) {
+    views = {lanes_reversed(views.rows), positions_reversed(views.columns)};
+  }
+  return views;
 }
 
 }  // namespace wrapatlas

@@ -25,10 +25,10 @@ class SlowBoard {
 
   /// Calls visit(cell index) for each covered cell; false if the chart leaves the board.
   template <typename Visit>
-  bool visit(const ChartRaster& chart, int x, int y, Visit visit_cell) const {
-    for (int j = 0; j < chart.height; ++j) {
-      for (int i = 0; i < chart.width; ++i) {
-        if (!chart.rows.bits.test(j, i)) continue;
+  bool visit(const CellViews& chart, int x, int y, Visit visit_cell) const {
+    for (int j = 0; j < chart.rows.lanes; ++j) {
+      for (int i = 0; i < chart.rows.length; ++i) {
+        if (!chart.rows.test(j, i)) continue;
         int u = x + i, v = y + j;
         if (wraps_u(wrap_)) u %= width_;
         if (wraps_v(wrap_)) v %= height_;
@@ -55,13 +55,15 @@ TEST_P(BoardOracle, AdmitsCollidesAdds) {
     const SlowBoard slow(width, height, GetParam());
     std::vector<int> occupied(static_cast<std::size_t>(width * height));
     for (int i = 0; i < 12; ++i) {
-      const ChartRaster chart = random_raster(random, round % 3 == 0 ? 70 : 12);
+      ChartRaster chart = random_raster(random, round % 3 == 0 ? 70 : 12);
+      for (int turn = 0; turn < i % 4; ++turn) chart = quarter_turned(chart);
+      const CellViews views = cells_of(chart);
       std::map<int, int> cells;
       const bool on_axes = (wraps_u(GetParam()) || chart.width <= width) &&
                            (wraps_v(GetParam()) || chart.height <= height);
       bool fold_free = true;
       if (on_axes) {
-        slow.visit(chart, 0, 0, [&](int cell) { fold_free &= ++cells[cell] == 1; });
+        slow.visit(views, 0, 0, [&](int cell) { fold_free &= ++cells[cell] == 1; });
       }
       ASSERT_EQ(board.admits(chart), on_axes && fold_free);
       if (!on_axes || !fold_free) continue;
@@ -70,13 +72,13 @@ TEST_P(BoardOracle, AdmitsCollidesAdds) {
         const int y = static_cast<int>(random() % static_cast<unsigned>(height));
         bool free = true;
         free &= slow.visit(
-            chart, x, y, [&](int cell) { free &= occupied[static_cast<std::size_t>(cell)] == 0; });
+            views, x, y, [&](int cell) { free &= occupied[static_cast<std::size_t>(cell)] == 0; });
         const bool leaves = (!wraps_u(GetParam()) && x + chart.width > width) ||
                             (!wraps_v(GetParam()) && y + chart.height > height);
-        ASSERT_EQ(board.collides(chart, x, y), leaves || !free);
+        ASSERT_EQ(board.collides(views, x, y), leaves || !free);
         if (leaves || !free) continue;
-        board.add(chart, x, y);
-        slow.visit(chart, x, y, [&](int cell) { ++occupied[static_cast<std::size_t>(cell)]; });
+        board.add(views, x, y);
+        slow.visit(views, x, y, [&](int cell) { ++occupied[static_cast<std::size_t>(cell)]; });
         break;
       }
       for (int v = 0; v < height; ++v) {

@@ -79,12 +79,14 @@ int oracle(const std::vector<std::array<Vec2, 3>>& triangles, Coverage coverage,
   return growth > 0 ? least < growth : least == 0;
 }
 
-void check_horizons(const Silhouette& view) {
+void check_horizons(const Silhouette& view, const BitLanes& cells) {
+  EXPECT_EQ(view.lanes, cells.lanes);
+  EXPECT_EQ(view.length, cells.length);
   std::int32_t hollow = 0, filled = 0, sum_first = 0, sum_last = 0;
-  for (int lane = 0; lane < view.bits.lanes; ++lane) {
+  for (int lane = 0; lane < cells.lanes; ++lane) {
     int first = -1, last = -1, count = 0;
-    for (int i = 0; i < view.bits.length; ++i) {
-      if (!view.bits.test(lane, i)) continue;
+    for (int i = 0; i < cells.length; ++i) {
+      if (!cells.test(lane, i)) continue;
       if (first < 0) first = i;
       last = i;
       ++count;
@@ -145,14 +147,15 @@ void compare_with_oracle(const Chart& chart, const RasterScale& scale, const Cha
     }
     triangles.push_back(corners);
   }
+  const CellViews cells = cells_of(raster);
   int covered = 0;
   for (int y = -1; y <= raster.height; ++y) {
     for (int x = -1; x <= raster.width; ++x) {
       const bool within = x >= 0 && y >= 0 && x < raster.width && y < raster.height;
       const int expected = oracle(triangles, scale.coverage, scale.growth, x, y);
-      const bool got = within && raster.rows.bits.test(y, x);
+      const bool got = within && cells.rows.test(y, x);
       if (within) {
-        ASSERT_EQ(raster.columns.bits.test(x, y), got) << "views differ at " << x << "," << y;
+        ASSERT_EQ(cells.columns.test(x, y), got) << "views differ at " << x << "," << y;
       }
       covered += got;
       // The grown box touches the sides of its outermost cells: outside of them nothing is meant.
@@ -165,7 +168,8 @@ void compare_with_oracle(const Chart& chart, const RasterScale& scale, const Cha
     }
   }
   EXPECT_EQ(raster.cells, covered);
-  for (const Silhouette* view : {&raster.columns, &raster.rows}) check_horizons(*view);
+  check_horizons(raster.columns, cells.columns);
+  check_horizons(raster.rows, cells.rows);
 }
 
 class RasterOracle : public ::testing::TestWithParam<Coverage> {};
@@ -226,7 +230,7 @@ TEST(Raster, LoopsFillByNonZeroWinding) {
   const ChartRaster raster =
       rasterize(make_raster_shape(*chart), {{40, 40}, 0, Coverage::center}, 0);
   const Vec2 middle = raster.offset;
-  EXPECT_TRUE(raster.rows.bits.test(static_cast<int>(middle.y), static_cast<int>(middle.x)));
+  EXPECT_TRUE(cells_of(raster).rows.test(static_cast<int>(middle.y), static_cast<int>(middle.x)));
   // Five points of a pentagram of radius 1 and its pentagon, once.
   EXPECT_NEAR(chart->area, 1.1226, 1e-3);
   EXPECT_NEAR(static_cast<double>(raster.cells) / 1600, chart->area, 0.02);

@@ -1,0 +1,82 @@
+#include "raster/silhouette.h"
+
+namespace wrapatlas {
+namespace {
+
+/// A view whose lanes are all empty.
+Silhouette empty_silhouette(int lanes, int length) {
+  Silhouette result;
+  result.lanes = lanes;
+  result.length = length;
+  result.first.assign(static_cast<std::size_t>(lanes), 1);
+  result.last.assign(static_cast<std::size_t>(lanes), 0);
+  return result;
+}
+
+/// Runs and sums of lanes whose horizons are known.
+void sum_up(Silhouette& view, std::int64_t cells) {
+  std::int32_t lane = 0;
+  while (lane < view.lanes) {
+    const std::int32_t begin = lane;
+    for (; lane < view.lanes; ++lane) {
+      const auto i = static_cast<std::size_t>(lane);
+      if (view.first[i] > view.last[i]) break;
+      view.sum_first += view.first[i];
+      view.sum_last += view.last[i];
+    }
+    if (lane > begin) view.filled.push_back({begin, lane});
+    view.filled_lanes += lane - begin;
+    ++lane;
+  }
+  view.hollow =
+      view.sum_last - view.sum_first + view.filled_lanes - static_cast<std::int32_t>(cells);
+}
+
+/// Calls visit(position) for the pending positions that are set in this lane; they are then no
+/// longer pending.
+template <typename Visit>
+void visit_pending(const std::uint64_t* lane, std::vector<std::uint64_t>& pending, Visit visit) {
+  for (std::size_t word = 0; word < pending.size(); ++word) {
+    std::uint64_t met = lane[word] & pending[word];
+    pending[word] &= ~met;
+    for (; met != 0; met &= met - 1) {
+      visit(word * kWordBits + static_cast<std::size_t>(std::countr_zero(met)));
+    }
+  }
+}
+
+}  // namespace
+
+Silhouette lane_silhouette(const BitLanes& cells_by_row, std::int64_t cells) {
+  Silhouette view = empty_silhouette(cells_by_row.lanes, cells_by_row.length);
+  for (int y = 0; y < cells_by_row.lanes; ++y) {
+    const int last = last_set(cells_by_row.lane(y), cells_by_row.length);
+    if (last < 0) continue;
+    const auto i = static_cast<std::size_t>(y);
+    view.first[i] =
+        static_cast<std::int16_t>(next_set(cells_by_row.lane(y), cells_by_row.length, 0));
+    view.last[i] = static_cast<std::int16_t>(last);
+  }
+  sum_up(view, cells);
+  return view;
+}
+
+Silhouette cross_silhouette(const BitLanes& cells_by_row, std::int64_t cells) {
+  Silhouette view = empty_silhouette(cells_by_row.length, cells_by_row.lanes);
+  thread_local std::vector<std::uint64_t> pending;
+  const auto words = static_cast<std::size_t>(cells_by_row.words);
+  pending.assign(words, ~std::uint64_t{0});
+  for (int y = 0; y < cells_by_row.lanes; ++y) {
+    visit_pending(cells_by_row.lane(y), pending,
+                  [&](std::size_t x) { view.first[x] = static_cast<std::int16_t>(y); });
+  }
+  pending.assign(words, ~std::uint64_t{0});
+  for (int y = cells_by_row.lanes - 1; y >= 0; --y) {
+    visit_pending(cells_by_row.lane(y), pending,
+                  [&](std::size_t x) { view.last[x] = static_cast<std::int16_t>(y); });
+  }
+  sum_up(view, cells);
+  return view;
+}
+
+}  // namespace wrapatlas

@@ -20,10 +20,10 @@ constexpr std::size_t kCharts = 400;
 void slide_plainly(const Channel& channel, const Silhouette& chart, SlideResult& result) {
   for (std::size_t s = 0; s < kLanes; ++s) {
     int most = -32768, least = 32767;
-    for (std::size_t c = 0; c < chart.first.size(); ++c) {
-      if (chart.first[c] > chart.last[c]) continue;
-      most = std::max(most, channel.low[s + c] - chart.first[c]);
-      least = std::min(least, channel.high[s + c] - 1 - chart.last[c]);
+    for (std::size_t c = 0; c < static_cast<std::size_t>(chart.lanes); ++c) {
+      if (chart.first()[c] > chart.last()[c]) continue;
+      most = std::max(most, channel.low[s + c] - chart.first()[c]);
+      least = std::min(least, channel.high[s + c] - 1 - chart.last()[c]);
     }
     result.lowest[s] = static_cast<std::int16_t>(most);
     result.highest[s] = static_cast<std::int16_t>(least);
@@ -35,9 +35,9 @@ Rest best_rest_plainly(const Channel& channel, const Silhouette& chart, const Sl
   for (std::size_t s = 0; s < kLanes; ++s) {
     if (range.lowest[s] > range.highest[s]) continue;
     std::int32_t gap = 0;
-    for (std::size_t c = 0; c < chart.first.size(); ++c) {
-      if (chart.first[c] <= chart.last[c])
-        gap += range.lowest[s] + chart.first[c] - channel.low[s + c];
+    for (std::size_t c = 0; c < static_cast<std::size_t>(chart.lanes); ++c) {
+      if (chart.first()[c] <= chart.last()[c])
+        gap += range.lowest[s] + chart.first()[c] - channel.low[s + c];
     }
     if (gap < rest.gap) rest = {gap, static_cast<int>(s), range.lowest[s]};
   }

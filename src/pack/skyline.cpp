@@ -19,10 +19,9 @@ Rest Skyline::best_drop(const ChartRaster& chart) {
 
 void Skyline::add(const ChartRaster& chart, int x, int y) {
   for (int c = 0; c < chart.width; ++c) {
-    const auto i = static_cast<std::size_t>(c);
-    if (chart.columns.first[i] > chart.columns.last[i]) continue;
+    if (chart.columns.first()[c] > chart.columns.last()[c]) continue;
     horizon_.low[static_cast<std::size_t>(x + c)] =
-        static_cast<std::int16_t>(y + chart.columns.last[i] + 1);
+        static_cast<std::int16_t>(y + chart.columns.last()[c] + 1);
   }
   horizon_.extend();
 }

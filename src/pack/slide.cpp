@@ -19,9 +19,10 @@ constexpr int kTile = 64;  ///< shifts worked on together; their results stay in
     least[s] = std::numeric_limits<std::int16_t>::max();
   }
   const int lanes = chart.lanes;
+  const std::int16_t* firsts = chart.first();
+  const std::int16_t* lasts = chart.last();
   for (int c = 0; c < lanes; ++c) {
-    const std::int16_t first = chart.first[static_cast<std::size_t>(c)];
-    const std::int16_t last = chart.last[static_cast<std::size_t>(c)];
+    const std::int16_t first = firsts[c], last = lasts[c];
     if (first > last) continue;
     const auto end = static_cast<std::int16_t>(last + 1);
     const std::int16_t* lane_low = low + c;
@@ -61,7 +62,7 @@ template <int kSign>
   alignas(64) std::int32_t gap[kTile];
   for (int tile = begin / kTile * kTile; tile < end; tile += kTile) {
     for (int k = 0; k < kTile; ++k) gap[k] = base + chart.filled_lanes * position[tile + k];
-    for (const Silhouette::LaneRun run : chart.filled) {
+    for (const Silhouette::LaneRun run : chart.filled()) {
       const std::int32_t* from = sums.data() + tile + run.begin;
       const std::int32_t* to = sums.data() + tile + run.end;
       for (int k = 0; k < kTile; ++k) gap[k] -= to[k] - from[k];

@@ -3,95 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "raster/inside_fill.h"
 #include "raster/row_scan.h"
 #include "raster/silhouette.h"
 
 namespace wrapatlas {
 namespace {
-
-/// Winding numbers at cell centres, for shapes that overlap or fold: a running sum per row.
-class WindingFill {
- public:
-  WindingFill(int width, int height)
-      : width_(width),
-        deltas_(static_cast<std::size_t>(width + 1) * static_cast<std::size_t>(height)) {}
-  void cross(int row, int cell, int winding) {
-    deltas_[static_cast<std::size_t>(row) * static_cast<std::size_t>(width_ + 1) +
-            static_cast<std::size_t>(cell)] += winding;
-  }
-  void fill(BitLanes& rows) const {
-    for (int y = 0; y < rows.lanes; ++y) {
-      const std::int32_t* delta =
-          deltas_.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(width_ + 1);
-      std::int32_t winding = 0;
-      for (int x = 0; x < width_; ++x) {
-        winding += delta[x];
-        if (winding != 0) rows.set(y, x);
-      }
-    }
-  }
-
- private:
-  int width_;
-  std::vector<std::int32_t> deltas_;
-};
-
-/// Inside by parity, for clean shapes: crossings toggle bits, a prefix-xor spreads them.
-class ParityFill {
- public:
-  ParityFill(int width, int height) : toggles_(height, width + 1) {}
-  void cross(int row, int cell, int winding) {
-    if ((winding & 1) != 0) {
-      toggles_.lane(row)[cell / kWordBits] ^= std::uint64_t{1} << (cell % kWordBits);
-    }
-  }
-  void fill(BitLanes& rows) const {
-    for (int y = 0; y < rows.lanes; ++y) {
-      std::uint64_t carry = 0;
-      for (int word = 0; word < rows.words; ++word) {
-        std::uint64_t bits = toggles_.lane(y)[word];
-        for (unsigned shift = 1; shift < 64; shift *= 2) bits ^= bits << shift;
-        bits ^= carry;
-        carry = std::uint64_t{0} - (bits >> 63U);
-        rows.lane(y)[word] |= bits;
-      }
-      if (rows.length % kWordBits != 0) {
-        rows.lane(y)[rows.words - 1] &= ~std::uint64_t{0} >> (kWordBits - rows.length % kWordBits);
-      }
-    }
-  }
-
- private:
-  BitLanes toggles_;
-};
-
-/// First cell of a row whose centre lies right of x.
-int first_centre_right_of(double x, int width) {
-  return std::clamp(static_cast<int>(std::ceil(x - 0.5)), 0, width);
-}
-
-template <typename Fill>
-void fill_inside(const RasterShape& shape, const std::vector<Vec2>& points, BitLanes& rows) {
-  Fill fill(rows.length, rows.lanes);
-  for (const RasterShape::Edge& edge : shape.edges) {
-    Vec2 low = points[edge.from], high = points[edge.to];
-    int winding = edge.winding;
-    if (low.y > high.y) {
-      std::swap(low, high);
-      winding = -winding;
-    }
-    // Rows whose centre lies in [low.y, high.y).
-    const int begin = std::max(0, static_cast<int>(std::ceil(low.y - 0.5)));
-    const int end = std::min(rows.lanes, static_cast<int>(std::ceil(high.y - 0.5)));
-    if (begin >= end) continue;
-    const double slope = (high.x - low.x) / (high.y - low.y);
-    for (int y = begin; y < end; ++y) {
-      const double x = low.x + (y + 0.5 - low.y) * slope;
-      fill.cross(y, first_centre_right_of(x, rows.length), winding);
-    }
-  }
-  fill.fill(rows);
-}
 
 /// Cells whose centre lies in a triangle, or which the triangle enters.
 void cover_triangle(const std::array<Vec2, 3>& corner, Coverage coverage, BitLanes& rows) {
@@ -198,11 +115,7 @@ ChartRaster rasterize(const RasterShape& shape, const RasterScale& scale, double
   raster.offset = shift - centre;
 
   BitLanes rows(raster.height, raster.width);
-  if (shape.simple) {
-    fill_inside<ParityFill>(shape, points, rows);
-  } else {
-    fill_inside<WindingFill>(shape, points, rows);
-  }
+  fill_inside(shape, points, rows);
   for (const auto& corner : shape.triangles) {
     cover_triangle({points[corner[0]], points[corner[1]], points[corner[2]]}, scale.coverage, rows);
   }

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "raster/bits.h"
@@ -36,18 +37,29 @@ struct RasterScale {
 
 /// One direction's view of a raster: its columns, or its rows.
 struct Silhouette {
-  int lanes = 0;                    ///< columns (rows)
-  int length = 0;                   ///< cells of a lane
-  std::vector<std::int16_t> first;  ///< horizon: first covered cell of a lane; > last if empty
-  std::vector<std::int16_t> last;   ///< horizon: last covered cell of a lane
+  int lanes = 0;   ///< columns (rows)
+  int length = 0;  ///< cells of a lane
+  /// Horizons: the first covered cell of each lane, then the last one of each; first > last if a
+  /// lane is empty. One array, as there are very many silhouettes.
+  std::vector<std::int16_t> horizons;
   struct LaneRun {
     std::int32_t begin, end;
   };
-  std::vector<LaneRun> filled;    ///< maximal runs of lanes with a covered cell; one, usually
-  std::int32_t filled_lanes = 0;  ///< lanes with a covered cell
-  std::int32_t sum_first = 0;     ///< over filled lanes
+  LaneRun run{0, 0};                ///< the lanes with a covered cell, if they are one run
+  std::vector<LaneRun> split_runs;  ///< their maximal runs, if they are several
+  std::int32_t filled_lanes = 0;    ///< lanes with a covered cell
+  std::int32_t sum_first = 0;       ///< over filled lanes
   std::int32_t sum_last = 0;
   std::int32_t hollow = 0;  ///< uncovered cells between the two horizons (Fig. 4, yellow)
+
+  std::int16_t* first() { return horizons.data(); }
+  std::int16_t* last() { return horizons.data() + lanes; }
+  [[nodiscard]] const std::int16_t* first() const { return horizons.data(); }
+  [[nodiscard]] const std::int16_t* last() const { return horizons.data() + lanes; }
+  /// Maximal runs of lanes with a covered cell.
+  [[nodiscard]] std::span<const LaneRun> filled() const {
+    return split_runs.empty() ? std::span(&run, 1) : std::span(split_runs);
+  }
 };
 
 /// Horizons are 16-bit numbers, and sums of two of them must fit as well.

@@ -44,10 +44,12 @@ BitLanes lanes_reversed(const BitLanes& source) {
 Silhouette positions_reversed(const Silhouette& source) {
   Silhouette result = source;
   const int top = source.length - 1;
-  for (std::size_t i = 0; i < source.first.size(); ++i) {
-    const bool filled = source.first[i] <= source.last[i];
-    result.first[i] = static_cast<std::int16_t>(filled ? top - source.last[i] : 1);
-    result.last[i] = static_cast<std::int16_t>(filled ? top - source.first[i] : 0);
+  const std::int16_t* first = source.first();
+  const std::int16_t* last = source.last();
+  for (int i = 0; i < source.lanes; ++i) {
+    const bool filled = first[i] <= last[i];
+    result.first()[i] = static_cast<std::int16_t>(filled ? top - last[i] : 1);
+    result.last()[i] = static_cast<std::int16_t>(filled ? top - first[i] : 0);
   }
   result.sum_first = source.filled_lanes * top - source.sum_last;
   result.sum_last = source.filled_lanes * top - source.sum_first;
@@ -57,12 +59,14 @@ Silhouette positions_reversed(const Silhouette& source) {
 /// The same lanes, the last one first.
 Silhouette lanes_reversed(const Silhouette& source) {
   Silhouette result = source;
-  std::reverse(result.first.begin(), result.first.end());
-  std::reverse(result.last.begin(), result.last.end());
-  std::reverse(result.filled.begin(), result.filled.end());
-  for (Silhouette::LaneRun& run : result.filled) {
-    run = {source.lanes - run.end, source.lanes - run.begin};
-  }
+  std::reverse(result.first(), result.last());
+  std::reverse(result.last(), result.last() + result.lanes);
+  const auto reversed = [&](const Silhouette::LaneRun& run) {
+    return Silhouette::LaneRun{source.lanes - run.end, source.lanes - run.begin};
+  };
+  result.run = reversed(source.run);
+  std::transform(source.split_runs.rbegin(), source.split_runs.rend(), result.split_runs.begin(),
+                 reversed);
   return result;
 }
 

@@ -1,5 +1,7 @@
 #include "raster/silhouette.h"
 
+#include <algorithm>
+
 namespace wrapatlas {
 namespace {
 
@@ -8,23 +10,28 @@ Silhouette empty_silhouette(int lanes, int length) {
   Silhouette result;
   result.lanes = lanes;
   result.length = length;
-  result.first.assign(static_cast<std::size_t>(lanes), 1);
-  result.last.assign(static_cast<std::size_t>(lanes), 0);
+  result.horizons.resize(2 * static_cast<std::size_t>(lanes));  // the last cells: 0
+  std::fill_n(result.first(), lanes, std::int16_t{1});
   return result;
 }
 
 /// Runs and sums of lanes whose horizons are known.
 void sum_up(Silhouette& view, std::int64_t cells) {
+  const std::int16_t* first = view.first();
+  const std::int16_t* last = view.last();
   std::int32_t lane = 0;
   while (lane < view.lanes) {
     const std::int32_t begin = lane;
     for (; lane < view.lanes; ++lane) {
-      const auto i = static_cast<std::size_t>(lane);
-      if (view.first[i] > view.last[i]) break;
-      view.sum_first += view.first[i];
-      view.sum_last += view.last[i];
+      if (first[lane] > last[lane]) break;
+      view.sum_first += first[lane];
+      view.sum_last += last[lane];
     }
-    if (lane > begin) view.filled.push_back({begin, lane});
+    if (lane > begin) {
+      if (view.filled_lanes > 0 && view.split_runs.empty()) view.split_runs.push_back(view.run);
+      view.run = {begin, lane};
+      if (view.filled_lanes > 0) view.split_runs.push_back(view.run);
+    }
     view.filled_lanes += lane - begin;
     ++lane;
   }
@@ -52,10 +59,9 @@ Silhouette lane_silhouette(const BitLanes& cells_by_row, std::int64_t cells) {
   for (int y = 0; y < cells_by_row.lanes; ++y) {
     const int last = last_set(cells_by_row.lane(y), cells_by_row.length);
     if (last < 0) continue;
-    const auto i = static_cast<std::size_t>(y);
-    view.first[i] =
+    view.first()[y] =
         static_cast<std::int16_t>(next_set(cells_by_row.lane(y), cells_by_row.length, 0));
-    view.last[i] = static_cast<std::int16_t>(last);
+    view.last()[y] = static_cast<std::int16_t>(last);
   }
   sum_up(view, cells);
   return view;
@@ -68,12 +74,12 @@ Silhouette cross_silhouette(const BitLanes& cells_by_row, std::int64_t cells) {
   pending.assign(words, ~std::uint64_t{0});
   for (int y = 0; y < cells_by_row.lanes; ++y) {
     visit_pending(cells_by_row.lane(y), pending,
-                  [&](std::size_t x) { view.first[x] = static_cast<std::int16_t>(y); });
+                  [&](std::size_t x) { view.first()[x] = static_cast<std::int16_t>(y); });
   }
   pending.assign(words, ~std::uint64_t{0});
   for (int y = cells_by_row.lanes - 1; y >= 0; --y) {
     visit_pending(cells_by_row.lane(y), pending,
-                  [&](std::size_t x) { view.last[x] = static_cast<std::int16_t>(y); });
+                  [&](std::size_t x) { view.last()[x] = static_cast<std::int16_t>(y); });
   }
   sum_up(view, cells);
   return view;

@@ -119,8 +119,8 @@ TEST(Slide, EveryVersionAgreesWithTheDefinition) {
         for (int c = 0; c < chart.width; ++c) {
           const auto lane = static_cast<std::size_t>((s + c) % lanes);
           const auto i = static_cast<std::size_t>(c);
-          low = std::max(low, channel.low[lane] - chart.columns.first[i]);
-          high = std::min(high, channel.high[lane] - 1 - chart.columns.last[i]);
+          low = std::max(low, channel.low[lane] - chart.columns.first()[i]);
+          high = std::min(high, channel.high[lane] - 1 - chart.columns.last()[i]);
         }
         ASSERT_EQ(lowest[static_cast<std::size_t>(s)], low);
         ASSERT_EQ(highest[static_cast<std::size_t>(s)], high);
@@ -135,15 +135,14 @@ TEST(Slide, BestRestIsTheFirstOfLeastGap) {
     ChartRaster chart = random_raster(random, 40);
     if (round % 4 == 0) {  // an empty lane, as a stack of separate charts can have
       Silhouette& columns = chart.columns;
-      const std::size_t lane = columns.first.size() / 2;
-      if (columns.first.size() < 3) continue;
-      columns.sum_first -= columns.first[lane];
-      columns.sum_last -= columns.last[lane];
+      const int lane = columns.lanes / 2;
+      if (columns.lanes < 3) continue;
+      columns.sum_first -= columns.first()[lane];
+      columns.sum_last -= columns.last()[lane];
       --columns.filled_lanes;
-      const auto middle = static_cast<std::int32_t>(lane);
-      columns.filled = {{0, middle}, {middle + 1, chart.width}};
-      columns.first[lane] = 1;
-      columns.last[lane] = 0;
+      columns.split_runs = {{0, lane}, {lane + 1, chart.width}};
+      columns.first()[lane] = 1;
+      columns.last()[lane] = 0;
     }
     Channel channel;
     const int lanes = chart.width + 150;
@@ -168,9 +167,9 @@ TEST(Slide, BestRestIsTheFirstOfLeastGap) {
         for (int c = 0; c < chart.width; ++c) {
           const auto lane = static_cast<std::size_t>((s + c) % lanes);
           const auto i = static_cast<std::size_t>(c);
-          if (chart.columns.first[i] > chart.columns.last[i]) continue;
-          gap += side == Side::low ? position + chart.columns.first[i] - channel.low[lane]
-                                   : channel.high[lane] - 1 - (position + chart.columns.last[i]);
+          if (chart.columns.first()[i] > chart.columns.last()[i]) continue;
+          gap += side == Side::low ? position + chart.columns.first()[i] - channel.low[lane]
+                                   : channel.high[lane] - 1 - (position + chart.columns.last()[i]);
         }
         if (gap < expected.gap) expected = {gap, s, position};
       }

@@ -93,24 +93,24 @@ void check_horizons(const Silhouette& view, const BitLanes& cells) {
     }
     const auto k = static_cast<std::size_t>(lane);
     if (first < 0) {
-      EXPECT_GT(view.first[k], view.last[k]);
+      EXPECT_GT(view.first()[k], view.last()[k]);
       continue;
     }
-    EXPECT_EQ(view.first[k], first);
-    EXPECT_EQ(view.last[k], last);
+    EXPECT_EQ(view.first()[k], first);
+    EXPECT_EQ(view.last()[k], last);
     hollow += last - first + 1 - count;
     ++filled;
     sum_first += first;
     sum_last += last;
   }
   std::int32_t in_runs = 0, previous_end = -1;
-  for (const Silhouette::LaneRun run : view.filled) {
+  for (const Silhouette::LaneRun run : view.filled()) {
     EXPECT_GT(run.begin, previous_end);
     previous_end = run.end;
     in_runs += run.end - run.begin;
     for (std::int32_t lane = run.begin; lane < run.end; ++lane) {
-      EXPECT_LE(view.first[static_cast<std::size_t>(lane)],
-                view.last[static_cast<std::size_t>(lane)]);
+      EXPECT_LE(view.first()[static_cast<std::size_t>(lane)],
+                view.last()[static_cast<std::size_t>(lane)]);
     }
   }
   EXPECT_EQ(in_runs, filled);

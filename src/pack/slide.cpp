@@ -82,6 +82,7 @@ template <int kSign>
     rest.gap = least;
     rest.shift = tile + static_cast<int>(std::find(gap, gap + kTile, least) - gap);
     rest.position = position[rest.shift];
+    if (least == 0) break;  // no gap is smaller
   }
 }
 

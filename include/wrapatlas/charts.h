@@ -66,8 +66,9 @@ struct ChartSet {
 };
 
 /// Finds the charts of a mesh: faces are connected if they share an edge at both of whose ends
-/// position and UV agree (by value, so files that repeat vertices are fine). Charts are numbered
-/// by their first face. Fails if no face has UVs. The mesh must pass validate_mesh. O(n log n).
+/// position and UV agree (by value, so files that repeat vertices are fine) and are of one object.
+/// Charts are numbered by their first face. Fails if no face has UVs. The mesh must pass
+/// validate_mesh. O(n log n).
 Result<ChartSet> build_charts(const Mesh& mesh, Stacked stacked = Stacked::separate);
 
 }  // namespace wrapatlas

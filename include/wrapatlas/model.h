@@ -52,8 +52,9 @@ Result<Model> load_model_bytes(std::string bytes, FileFormat format, std::string
                                const std::filesystem::path& base, const LoadOptions& options = {});
 
 /// Writes the model with new UVs. Same format as read (gltf and glb count as one): everything else
-/// is kept. Another format (obj, ply, gltf, glb): positions, faces and UVs alone. Written to a
-/// temporary file beside `path` and renamed, so a failure leaves nothing half-written.
+/// is kept. Another format (obj, ply, gltf, glb): positions, faces, UVs and which faces are of
+/// one object, alone. Written to a temporary file beside `path` and renamed, so a failure leaves
+/// nothing half-written.
 Status save_model(const Model& model, const AtlasMesh& atlas, const std::filesystem::path& path);
 
 /// A mesh with `atlas` applied: what load_model would read back, but for rounding.

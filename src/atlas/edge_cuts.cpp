@@ -30,10 +30,10 @@ void find_crossings(Vec2 a, Vec2 b, Wrap wrap, std::vector<Crossing>& crossings)
 
 EdgeCuts::EdgeCuts(const Mesh& mesh, const ChartSet& charts, const std::vector<Vec2>& corner_uv,
                    Wrap wrap)
-    : mesh_(mesh), welded_(weld_positions(mesh.positions)) {
+    : mesh_(mesh), welded_(weld_corners(mesh)) {
   std::vector<std::uint32_t> next(mesh.corner_count());
   std::vector<bool> has_uv(mesh.corner_count());
-  std::vector<bool> cut_begins(mesh.positions.size(), false);  // the lower end of a cut edge
+  std::vector<bool> cut_begins(welded_.count, false);  // the lower end of a cut edge
   std::vector<Crossing> crossings;
   bool any = false;
   for (std::uint32_t face = 0; face < mesh.face_count(); ++face) {
@@ -56,7 +56,7 @@ EdgeCuts::EdgeCuts(const Mesh& mesh, const ChartSet& charts, const std::vector<V
   }
   begin_.assign(mesh.corner_count(), 0);
   end_.assign(mesh.corner_count(), 0);
-  gather_edges(uses, mesh.positions.size());
+  gather_edges(uses, welded_.count);
 
   std::vector<double> ts;
   std::vector<std::uint32_t> sides;

@@ -29,7 +29,7 @@ struct EdgePoint {
 };
 
 /// For every side of every face the points to be inserted in it: those where the side itself is
-/// cut, and those where another face of the same edge in space is.
+/// cut, and those where another face of the same edge in space, and of the same object, is.
 class EdgeCuts {
  public:
   /// `corner_uv`: per corner of the mesh its (shifted) UV in the atlas; ignored without a chart.
@@ -46,12 +46,12 @@ class EdgeCuts {
 
  private:
   [[nodiscard]] std::uint32_t welded(std::uint32_t corner) const {
-    return welded_[mesh_.corner_position[corner]];
+    return welded_.of_corner[corner];
   }
   void cut_edge(std::span<const std::uint32_t> sides, const std::vector<double>& ts);
 
   const Mesh& mesh_;
-  std::vector<std::uint32_t> welded_;
+  WeldedCorners welded_;
   std::vector<std::uint32_t> begin_, end_;  // per corner, into points_; empty if nothing is cut
   std::vector<EdgePoint> points_;
   std::uint32_t position_count_ = 0;

@@ -49,7 +49,7 @@ std::vector<std::uint32_t> weld_texcoords(const std::vector<Vec2>& texcoords) {
 }  // namespace
 
 UvVertices find_uv_vertices(const Mesh& mesh) {
-  const std::vector<std::uint32_t> position = weld_positions(mesh.positions);
+  const std::vector<std::uint32_t> position = weld_corners(mesh).of_corner;
   const std::vector<std::uint32_t> texcoord = weld_texcoords(mesh.texcoords);
   UvVertices vertices;
   vertices.of_corner.assign(mesh.corner_count(), kNone);
@@ -64,7 +64,7 @@ UvVertices find_uv_vertices(const Mesh& mesh) {
       continue;
     }
     for (std::uint32_t c = begin; c < end; ++c) {
-      const std::uint32_t p = position[mesh.corner_position[c]];
+      const std::uint32_t p = position[c];
       const std::uint32_t t = texcoord[mesh.corner_texcoord[c]];
       const auto next = static_cast<std::uint32_t>(vertices.position.size());
       const std::uint32_t vertex = numbering.find_or_add(

@@ -8,10 +8,10 @@
 
 namespace wrapatlas {
 
-/// Corners with equal welded position and equal UV value (-0 == 0) have the same vertex.
+/// Corners that weld_corners joins and that have equal UV values (-0 == 0) have the same vertex.
 struct UvVertices {
   std::vector<std::uint32_t> of_corner;  ///< numbered by first use; kNone on faces without UVs
-  std::vector<std::uint32_t> position;   ///< per vertex: welded position
+  std::vector<std::uint32_t> position;   ///< per vertex: number of weld_corners
   std::vector<Vec2> uv;                  ///< per vertex
   std::uint32_t faces_without_uv = 0;
 };

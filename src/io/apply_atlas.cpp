@@ -22,6 +22,11 @@ Mesh apply_atlas(const Mesh& mesh, const AtlasMesh& atlas) {
                                           ? mesh.corner_position[corner]
                                           : source_vertices + cut.of_point[atlas.corner_cut[c]]);
   }
+  if (mesh.face_object.empty()) return applied;
+  applied.face_object.reserve(atlas.face_source.size());
+  for (const std::uint32_t face : atlas.face_source) {
+    applied.face_object.push_back(mesh.face_object[face]);
+  }
   return applied;
 }
 

@@ -1,10 +1,10 @@
-// A glTF of positions, faces and UVs alone. No normals: readers then shade flat, as the
-// specification says. A .gltf holds its buffer as a data URI, so that it is one file.
+// A glTF of positions, faces and UVs alone, a mesh for each object. No normals: readers then shade
+// flat, as the specification says. A .gltf holds its buffer as a data URI, so that it is one file.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cstring>
-#include <map>
+#include <unordered_map>
 
 #include "io/formats.h"
 #include "io/gltf_arrays.h"
@@ -13,21 +13,39 @@
 namespace wrapatlas {
 namespace {
 
-/// The vertices and triangles of the faces with UVs, or of those without.
+/// The faces of one object.
+struct ObjectFaces {
+  std::vector<std::uint32_t> with_texcoords, without;
+};
+
+/// In the order of their first faces.
+std::vector<ObjectFaces> faces_of_objects(const Mesh& mesh, const AtlasMesh& atlas) {
+  std::vector<ObjectFaces> objects;
+  std::unordered_map<std::uint32_t, std::size_t> place_of;
+  for (std::uint32_t f = 0; f < atlas.face_count(); ++f) {
+    const std::uint32_t object = mesh.object_of(atlas.face_source[f]);
+    const auto [place, is_new] = place_of.try_emplace(object, objects.size());
+    if (is_new) objects.emplace_back();
+    ObjectFaces& faces = objects[place->second];
+    const bool has_texcoords = atlas.corner_texcoord[atlas.face_begin[f]] != kNone;
+    (has_texcoords ? faces.with_texcoords : faces.without).push_back(f);
+  }
+  return objects;
+}
+
+/// Makes one primitive after another, and lends their arrays to the edit: to outlive it.
 class FreshPrimitive {
  public:
-  FreshPrimitive(const Mesh& mesh, const AtlasMesh& atlas, bool with_texcoords)
-      : mesh_(mesh), atlas_(atlas), with_texcoords_(with_texcoords) {
-    vertices_of_.resize(mesh.positions.size() + atlas.cut_position_count, kNone);
-    for (std::size_t f = 0; f < atlas.face_count(); ++f)
-      add_face(atlas.face_begin[f], atlas.face_begin[f + 1]);
-    std::vector<std::uint32_t>().swap(vertices_of_);
-    std::vector<std::uint32_t>().swap(next_);
-  }
+  FreshPrimitive(const Mesh& mesh, const AtlasMesh& atlas)
+      : mesh_(mesh),
+        atlas_(atlas),
+        vertices_of_(mesh.positions.size() + atlas.cut_position_count, kNone) {}
 
-  /// Lends its arrays to `edit`.
-  void write(GltfEdit& edit) const {
-    if (indices_.empty()) return;
+  /// `faces` either all have UVs or all have none.
+  void write(GltfEdit& edit, std::size_t to_mesh, const std::vector<std::uint32_t>& faces) {
+    if (faces.empty()) return;
+    start(atlas_.corner_texcoord[atlas_.face_begin[faces[0]]] != kNone);
+    for (const std::uint32_t f : faces) add_face(atlas_.face_begin[f], atlas_.face_begin[f + 1]);
     GltfAccessor type;
     type.components = 3;
     std::string bytes(positions_.size() * 12, '\0');
@@ -42,16 +60,28 @@ class FreshPrimitive {
     Json attributes;
     attributes["POSITION"] =
         edit.add_accessor(std::move(json), std::move(bytes), 0, GltfTarget::vertices);
-    if (with_texcoords_) attributes["TEXCOORD_0"] = add_uvs(edit, uvs_);
+    if (with_texcoords_) {
+      attributes["TEXCOORD_0"] = add_uvs(edit, lent_uvs_.emplace_back(std::move(uvs_)));
+    }
     Json primitive;
     primitive["attributes"] = std::move(attributes);
-    primitive["indices"] = add_indices(edit, indices_, positions_.size(), GltfComponent::u16);
-    edit.json["meshes"][0]["primitives"].push_back(std::move(primitive));
+    primitive["indices"] = add_indices(edit, lent_indices_.emplace_back(std::move(indices_)),
+                                       positions_.size(), GltfComponent::u16);
+    edit.json["meshes"][to_mesh]["primitives"].push_back(std::move(primitive));
   }
 
  private:
+  void start(bool with_texcoords) {
+    with_texcoords_ = with_texcoords;
+    for (const std::uint32_t number : numbers_) vertices_of_[number] = kNone;
+    numbers_.clear();
+    next_.clear();
+    positions_.clear();
+    uvs_.clear();
+    indices_.clear();
+  }
+
   void add_face(std::uint32_t begin, std::uint32_t end) {
-    if ((atlas_.corner_texcoord[begin] != kNone) != with_texcoords_) return;
     corners_.clear();
     points_.clear();
     for (std::uint32_t c = begin; c < end; ++c) {
@@ -106,6 +136,7 @@ class FreshPrimitive {
                                 : mesh_.positions[number]);
     uvs_.push_back(uv);
     next_.push_back(kNone);
+    numbers_.push_back(number);
     return fresh;
   }
 
@@ -120,11 +151,14 @@ class FreshPrimitive {
 
   const Mesh& mesh_;
   const AtlasMesh& atlas_;
-  bool with_texcoords_;
-  std::vector<std::uint32_t> vertices_of_, next_;  ///< per position or cut position; per vertex
+  bool with_texcoords_ = false;
+  std::vector<std::uint32_t> vertices_of_;     ///< per position or cut position
+  std::vector<std::uint32_t> next_, numbers_;  ///< per vertex: the next one there, and where
   std::vector<Vec3> positions_;
   std::vector<GltfUv> uvs_;
   std::vector<std::uint32_t> indices_;
+  std::deque<std::vector<GltfUv>> lent_uvs_;
+  std::deque<std::vector<std::uint32_t>> lent_indices_;
   std::vector<std::uint32_t> corners_;
   std::vector<Vec3> points_;
   std::vector<std::array<std::uint32_t, 3>> triangles_;
@@ -139,14 +173,22 @@ Status write_new_gltf(const std::filesystem::path& path, const Mesh& mesh, const
   file.binary = binary;
   file.json["asset"] = {{"version", "2.0"}, {"generator", "wrapatlas"}};
   file.json["scene"] = 0;
-  file.json["scenes"] = Json::array({{{"nodes", Json::array({0})}}});
-  file.json["nodes"] = Json::array({{{"mesh", 0}}});
-  GltfEdit edit(file);
-  const FreshPrimitive textured(mesh, atlas, true), plain(mesh, atlas, false);
-  textured.write(edit);
-  plain.write(edit);
-  if (!edit.json.contains("meshes")) {
+  const std::vector<ObjectFaces> objects = faces_of_objects(mesh, atlas);
+  if (objects.empty()) {
     return Error{ErrorKind::usage, path.string(), "there are no faces to write", ""};
+  }
+  Json nodes = Json::array(), numbers = Json::array();
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    nodes.push_back({{"mesh", i}});
+    numbers.push_back(i);
+  }
+  file.json["scenes"] = Json::array({{{"nodes", std::move(numbers)}}});
+  file.json["nodes"] = std::move(nodes);
+  FreshPrimitive primitive(mesh, atlas);
+  GltfEdit edit(file);
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    primitive.write(edit, i, objects[i].with_texcoords);
+    primitive.write(edit, i, objects[i].without);
   }
   edit.finish();
   return save_gltf(file, edit, path, binary);

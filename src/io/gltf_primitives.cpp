@@ -6,6 +6,8 @@
 #include <numeric>
 #include <set>
 
+#include "io/face_objects.h"
+
 namespace wrapatlas {
 namespace {
 
@@ -25,7 +27,9 @@ class Reader {
 
   Status read_all() {
     const Json& meshes = array_member(file_.json, "meshes");
+    std::uint32_t objects = 0;
     for (std::uint32_t m = 0; m < meshes.size(); ++m) {
+      const std::size_t first_face = mesh_.face_count();
       const Json& primitives = array_member(meshes[m], "primitives");
       for (std::uint32_t p = 0; p < primitives.size(); ++p) {
         place_ = fmt::format("mesh {}, primitive {}", m, p);
@@ -36,6 +40,8 @@ class Reader {
         primitive.primitive = p;
         if (Status read = read_one(json, primitive); !read) return read;
       }
+      assign_object(mesh_, first_face, objects);
+      if (mesh_.face_count() > first_face) ++objects;
     }
     return Done{};
   }

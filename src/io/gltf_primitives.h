@@ -37,7 +37,7 @@ inline Json& primitive_json(Json& json, const GltfPrimitive& primitive) {
   return json["meshes"][primitive.mesh]["primitives"][primitive.primitive];
 }
 
-/// Appends the triangles of all meshes to `mesh` and lists their primitives.
+/// Appends the triangles of all meshes to `mesh`, each as an object, and lists their primitives.
 Status read_primitives(GltfContents& contents, Mesh& mesh, std::vector<std::string>& remarks);
 
 /// Refuses files whose geometry is in an extension that we do not know.

@@ -54,6 +54,8 @@ ObjKeyword obj_keyword(std::string_view word) {
         return ObjKeyword::v;
       case 'f':
         return ObjKeyword::f;
+      case 'o':
+        return ObjKeyword::o;
       case 'l':
         return ObjKeyword::l;
       case 'p':

@@ -56,7 +56,7 @@ class ObjWords {
   const char* end_;
 };
 
-enum class ObjKeyword : std::uint8_t { v, vt, vn, f, l, p, curv, surf, other };
+enum class ObjKeyword : std::uint8_t { v, vt, vn, f, o, l, p, curv, surf, other };
 
 /// What a line's first word says; `fo` is an old spelling of `f`.
 ObjKeyword obj_keyword(std::string_view word);

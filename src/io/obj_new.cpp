@@ -1,4 +1,4 @@
-// A new OBJ file: positions, UVs, faces.
+// A new OBJ file: positions, UVs, faces, each under the number of its object if there are several.
 #include "io/file.h"
 #include "io/formats.h"
 #include "io/number.h"
@@ -24,6 +24,13 @@ Status write_new_obj(const std::filesystem::path& path, const Mesh& mesh, const 
     out += '\n';
   }
   for (std::size_t face = 0; face < applied.face_count(); ++face) {
+    const bool is_other = face == 0 ? !applied.face_object.empty()
+                                    : applied.object_of(face) != applied.object_of(face - 1);
+    if (is_other) {
+      out += "o ";
+      append_integer(out, std::int64_t{applied.object_of(face)} + 1);
+      out += '\n';
+    }
     out += 'f';
     for (std::uint32_t c = applied.face_begin[face]; c < applied.face_begin[face + 1]; ++c) {
       out += ' ';

@@ -2,8 +2,10 @@
 // kept to write the file back.
 #include <fmt/format.h>
 
+#include <unordered_map>
 #include <utility>
 
+#include "io/face_objects.h"
 #include "io/file.h"
 #include "io/formats.h"
 #include "io/number.h"
@@ -46,12 +48,17 @@ class ObjReader {
         case ObjKeyword::f:
           fine = read_face(words);
           break;
+        case ObjKeyword::o:
+          end_object();
+          object_name_ = rest_of_line(words, line.text);
+          break;
         default:
           if (first == "mtllib") read_material_file(words);
           break;
       }
       if (!fine) return error_at(line.number);
     }
+    end_object();
     return check_forward_references();
   }
   [[nodiscard]] std::vector<std::string> material_files() && { return std::move(material_files_); }
@@ -97,6 +104,24 @@ class ObjReader {
     if (!v.empty() && !parse_coordinate(v, uv.y)) return bad_coordinate(v);
     mesh_.texcoords.push_back(uv);
     return mesh_.texcoords.size() < kNone || fail("there are too many UVs", "split the file");
+  }
+
+  /// A name may hold blanks.
+  static std::string_view rest_of_line(ObjWords& words, std::string_view line) {
+    const std::string_view first = words.next();
+    std::string_view last = first;
+    for (std::string_view word = first; !word.empty(); word = words.next()) last = word;
+    return line.substr(static_cast<std::size_t>(first.data() - line.data()),
+                       static_cast<std::size_t>(last.data() + last.size() - first.data()));
+  }
+
+  /// Faces after lines of one and the same name are of one object, so it may be taken up again.
+  void end_object() {
+    if (first_face_of_object_ == mesh_.face_count()) return;
+    const auto next = static_cast<std::uint32_t>(objects_.size());
+    assign_object(mesh_, first_face_of_object_,
+                  objects_.try_emplace(object_name_, next).first->second);
+    first_face_of_object_ = mesh_.face_count();
   }
 
   // Items may be defined after the face that uses them, so only the kind of number is checked here.
@@ -170,6 +195,9 @@ class ObjReader {
   std::string_view bytes_, name_;
   std::vector<std::string> material_files_;
   Mesh mesh_;
+  std::string_view object_name_;  ///< of the `o` line that faces stand behind; a part of bytes_
+  std::unordered_map<std::string_view, std::uint32_t> objects_;
+  std::size_t first_face_of_object_ = 0;
   std::size_t normal_count_ = 0, normals_needed_ = 0, face_of_last_normal_ = 0;
   std::string what_, remedy_;
 };

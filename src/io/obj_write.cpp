@@ -49,6 +49,7 @@ class ObjWriter {
         case ObjKeyword::f:
           if (!plan_.in_place()) write_face(line);
           break;
+        case ObjKeyword::o:
         case ObjKeyword::other:
           break;
         default:

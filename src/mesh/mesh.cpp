@@ -65,6 +65,10 @@ Status validate_mesh(const Mesh& mesh) {
       mesh.corner_texcoord.size() != mesh.corner_position.size()) {
     return bad_mesh("mesh", "corner arrays differ in length", "pass one entry per corner in each");
   }
+  if (!mesh.face_object.empty() && mesh.face_object.size() != mesh.face_count()) {
+    return bad_mesh("mesh", "the objects of some faces are missing",
+                    "pass one entry per face, or none");
+  }
   const std::size_t face = first_bad(mesh.face_count(), [&](std::size_t f) {
     return mesh.face_begin[f + 1] < mesh.face_begin[f] + 3;
   });
@@ -97,6 +101,35 @@ std::vector<std::uint32_t> weld_positions(std::span<const Vec3> positions) {
     welded[i] = first.try_emplace(positions[i], i).first->second;
   }
   return welded;
+}
+
+WeldedCorners weld_corners(const Mesh& mesh) {
+  const std::vector<std::uint32_t> place = weld_positions(mesh.positions);
+  WeldedCorners points;
+  points.count = static_cast<std::uint32_t>(place.size());
+  points.of_corner.reserve(mesh.corner_count());
+  for (const std::uint32_t position : mesh.corner_position) {
+    points.of_corner.push_back(place[position]);
+  }
+  if (mesh.face_object.empty()) return points;
+  // The first object at a place takes the place's own number; further ones get new numbers.
+  std::vector<std::uint32_t> first_object(place.size(), kNone);
+  std::vector<bool> is_taken(place.size(), false);
+  std::unordered_map<std::uint64_t, std::uint32_t> further;
+  for (std::size_t face = 0; face < mesh.face_count(); ++face) {
+    const std::uint32_t object = mesh.face_object[face];
+    for (std::uint32_t c = mesh.face_begin[face]; c < mesh.face_begin[face + 1]; ++c) {
+      std::uint32_t& point = points.of_corner[c];
+      if (!is_taken[point]) first_object[point] = object;
+      is_taken[point] = true;
+      if (first_object[point] == object) continue;
+      const std::uint64_t key = (std::uint64_t{point} << 32U) | object;
+      const auto [found, is_new] = further.try_emplace(key, points.count);
+      if (is_new) ++points.count;
+      point = found->second;
+    }
+  }
+  return points;
 }
 
 void triangulate_polygon(std::span<const Vec2> points,

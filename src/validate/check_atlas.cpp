@@ -57,17 +57,17 @@ Result<CheckReport> Checker::run() {
   for (std::size_t f = 0; f < atlas_.face_count(); ++f) {
     if (!has_texcoords(atlas_, f)) ++report_.faces_without_uv;
   }
-  FaceCharts own = connect_faces(atlas_);
+  FaceCharts pieces;
   if (reference_ == nullptr) {
-    take_pieces_for_charts(own);
-  } else if (Status status = compare(own); !status) {
+    take_pieces_for_charts(connect_faces(atlas_, atlas_.face_object));
+  } else if (Status status = compare(pieces); !status) {
     return status.error();
   }
   rounding_ = rounding_of(atlas_, face_chart_, report_.charts, size_);
   items_ = items_of(atlas_, face_chart_, size_);
   check_sides();
   if (reference_ != nullptr) {
-    fit(own.of_face);
+    fit(pieces.of_face);
     check_areas_of_faces();
   }
   if (Status status = reassemble(); !status) return status.error();

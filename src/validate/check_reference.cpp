@@ -34,11 +34,19 @@ Outline outline_of(const Mesh& mesh, std::size_t face, Vec2 unit) {
 
 }  // namespace
 
-Status Checker::compare(const FaceCharts& own) {
+/// The objects that count are those of the reference: a format may have lost them, or keep other
+/// things apart. So the pieces found in the atlas are those of one chart of the reference each.
+Status Checker::compare(FaceCharts& pieces) {
   auto match = match_faces(atlas_, *reference_, size_);
   if (!match) return match.error();
   match_ = std::move(*match);
-  original_ = connect_faces(*reference_);
+  original_ = connect_faces(*reference_, reference_->face_object);
+  std::vector<std::uint32_t> chart_of_face;
+  chart_of_face.reserve(atlas_.face_count());
+  for (const std::uint32_t source : match_.source) {
+    chart_of_face.push_back(original_.of_face[source]);
+  }
+  pieces = connect_faces(atlas_, chart_of_face);
   const auto lost = [&](std::uint32_t f, std::uint32_t atlas_face, const char* how) {
     findings_.add(
         {Violation::missing_face, original_.of_face[f], kNone, atlas_face, f, 0,
@@ -49,17 +57,17 @@ Status Checker::compare(const FaceCharts& own) {
   }
   // Faces that only the atlas has UVs for form charts of their own behind those of the reference.
   face_chart_.assign(atlas_.face_count(), kNone);
-  std::vector<std::uint32_t> extra(own.count, kNone);
+  std::vector<std::uint32_t> extra(pieces.count, kNone);
   std::uint32_t charts = original_.count, last_lost = kNone;
   for (std::uint32_t f = 0; f < atlas_.face_count(); ++f) {
-    const std::uint32_t source = match_.source[f], chart = original_.of_face[source];
-    if (own.of_face[f] == kNone) {
+    const std::uint32_t source = match_.source[f], chart = chart_of_face[f];
+    if (pieces.of_face[f] == kNone) {
       if (chart != kNone && source != last_lost) lost(source, f, "has no UVs in the atlas");
       if (chart != kNone) last_lost = source;
     } else if (chart != kNone) {
       face_chart_[f] = chart;
     } else {
-      std::uint32_t& number = extra[own.of_face[f]];
+      std::uint32_t& number = extra[pieces.of_face[f]];
       if (number == kNone) number = charts++;
       face_chart_[f] = number;
     }

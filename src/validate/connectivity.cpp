@@ -7,19 +7,24 @@
 namespace wrapatlas::validate {
 namespace {
 
-/// Equal numbers for corners with equal position and UV.
-std::vector<std::uint32_t> number_corners(const Mesh& mesh) {
+/// Equal numbers for corners with equal position and UV in faces of one object.
+std::vector<std::uint32_t> number_corners(const Mesh& mesh,
+                                          std::span<const std::uint32_t> face_object) {
   const std::vector<std::uint32_t> welded = weld_positions(mesh.positions);
   struct Key {
-    std::uint32_t position, corner;
+    std::uint32_t position, object, corner;
     Vec2 uv;
-    [[nodiscard]] auto value() const { return std::tie(position, uv.x, uv.y); }
+    [[nodiscard]] auto value() const { return std::tie(position, object, uv.x, uv.y); }
   };
   std::vector<Key> keys;
   keys.reserve(mesh.corner_count());
-  for (std::uint32_t c = 0; c < mesh.corner_count(); ++c) {
-    if (mesh.corner_texcoord[c] == kNone) continue;
-    keys.push_back({welded[mesh.corner_position[c]], c, mesh.texcoords[mesh.corner_texcoord[c]]});
+  for (std::uint32_t face = 0; face < mesh.face_count(); ++face) {
+    const std::uint32_t object = face_object.empty() ? 0 : face_object[face];
+    for (std::uint32_t c = mesh.face_begin[face]; c < mesh.face_begin[face + 1]; ++c) {
+      const std::uint32_t texcoord = mesh.corner_texcoord[c];
+      if (texcoord == kNone) continue;
+      keys.push_back({welded[mesh.corner_position[c]], object, c, mesh.texcoords[texcoord]});
+    }
   }
   std::sort(keys.begin(), keys.end(),
             [](const Key& a, const Key& b) { return a.value() < b.value(); });
@@ -57,8 +62,8 @@ bool has_texcoords(const Mesh& mesh, std::size_t face) {
   return true;
 }
 
-FaceCharts connect_faces(const Mesh& mesh) {
-  const std::vector<std::uint32_t> numbers = number_corners(mesh);
+FaceCharts connect_faces(const Mesh& mesh, std::span<const std::uint32_t> face_object) {
+  const std::vector<std::uint32_t> numbers = number_corners(mesh, face_object);
   struct Edge {
     std::uint32_t low, high, face;
   };

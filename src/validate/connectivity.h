@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "wrapatlas/mesh.h"
@@ -28,7 +29,9 @@ struct FaceCharts {
 };
 
 /// Faces belong to one chart if a chain of shared edges joins them, where position and UV are equal
-/// in value at both ends of each edge. Charts are numbered by their first face. O(n log n).
-FaceCharts connect_faces(const Mesh& mesh);
+/// in value at both ends of each edge, within one object. `face_object` says of which object a face
+/// is, in place of the mesh's own objects; empty: all are of one. Charts are numbered by their
+/// first face. O(n log n).
+FaceCharts connect_faces(const Mesh& mesh, std::span<const std::uint32_t> face_object);
 
 }  // namespace wrapatlas::validate

@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
 #include "validate/connectivity.h"
+#include "validate/face_order.h"
 #include "validate/reference_face.h"
 
 namespace wrapatlas::validate {
@@ -161,9 +163,7 @@ class Tiling {
   double texels_, area_ratio_ = 0;
 };
 
-}  // namespace
-
-Result<FaceMatch> match_faces(const Mesh& atlas, const Mesh& reference, Vec2 atlas_size) {
+Result<FaceMatch> match_in_order(const Mesh& atlas, const Mesh& reference, Vec2 atlas_size) {
   FaceMatch match;
   match.source.assign(atlas.face_count(), kNone);
   match.corners.resize(atlas.corner_count());
@@ -189,6 +189,37 @@ Result<FaceMatch> match_faces(const Mesh& atlas, const Mesh& reference, Vec2 atl
                  "compare an atlas with the mesh that it was made from"};
   }
   return match;
+}
+
+/// With both meshes' faces object by object.
+Result<FaceMatch> match_by_object(const Mesh& atlas, const Mesh& reference, Vec2 atlas_size) {
+  const std::vector<std::uint32_t> atlas_order = order_by_object(atlas);
+  const std::vector<std::uint32_t> reference_order = order_by_object(reference);
+  auto sorted = match_in_order(reordered(atlas, atlas_order), reordered(reference, reference_order),
+                               atlas_size);
+  if (!sorted) return sorted.error();
+  FaceMatch match;
+  match.source.resize(atlas.face_count());
+  match.corners.resize(atlas.corner_count());
+  auto corner = sorted->corners.begin();
+  for (std::size_t i = 0; i < atlas_order.size(); ++i) {
+    const std::uint32_t f = atlas_order[i];
+    match.source[f] = reference_order[sorted->source[i]];
+    const auto end = corner + atlas.face_size(f);
+    std::copy(corner, end, match.corners.begin() + atlas.face_begin[f]);
+    corner = end;
+  }
+  for (const std::uint32_t f : sorted->missing) match.missing.push_back(reference_order[f]);
+  return match;
+}
+
+}  // namespace
+
+Result<FaceMatch> match_faces(const Mesh& atlas, const Mesh& reference, Vec2 atlas_size) {
+  auto match = match_in_order(atlas, reference, atlas_size);
+  if (match && match->missing.empty()) return match;
+  auto by_object = match_by_object(atlas, reference, atlas_size);
+  return by_object && by_object->missing.empty() ? by_object : match;
 }
 
 }  // namespace wrapatlas::validate

@@ -24,8 +24,10 @@ struct FaceMatch {
 };
 
 /// Both meshes must pass validate_mesh. A face of the reference answers, in order, either to one
-/// face with the same corners or to several in a row that tile it. Error input: a face of the
-/// atlas that is no part of the reference at its place in the order. O(corners) for uncut faces.
+/// face with the same corners or to several in a row that tile it. The order is that of the files
+/// or, if that fails, object by object, as glTF has them (order_by_object). Error input: a face of
+/// the atlas that is no part of the reference at its place in the order. O(corners) for uncut
+/// faces.
 Result<FaceMatch> match_faces(const Mesh& atlas, const Mesh& reference, Vec2 atlas_size);
 
 }  // namespace wrapatlas::validate

@@ -357,6 +357,23 @@ TEST(ExportCut, FacesWithoutUvsGetTheNewPointsToo) {
   EXPECT_GT(inserted, 0U);
 }
 
+TEST(ExportCut, OtherObjectsGetNoNewPoints) {
+  const Square s(1, 4, {14, 6});
+  Mesh mesh = s.mesh;  // and the square once more, without UVs
+  for (std::uint32_t c = 0; c < 4; ++c) {
+    mesh.corner_position.push_back(mesh.corner_position[c]);
+    mesh.corner_texcoord.push_back(kNone);
+  }
+  mesh.face_begin.push_back(8);
+  for (const bool apart : {false, true}) {
+    if (apart) mesh.face_object = {0, 1};
+    const AtlasMesh cut = export_cut(mesh, charts_of(mesh), s.packing);
+    ASSERT_EQ(cut.face_source.back(), 1U);
+    const std::size_t corners = cut.face_begin.back() - cut.face_begin[cut.face_count() - 1];
+    EXPECT_EQ(corners, apart ? 4U : 6U);
+  }
+}
+
 TEST(ExportCut, FaceOfNoUvAreaIsCutAsWell) {
   // A triangle whose UVs lie on one line hangs between two others; the surface stays closed.
   MeshBuilder b;

@@ -48,6 +48,56 @@ TEST(BuildCharts, JoinsAcrossRepeatedVertices) {
   expect_consistent(b.mesh, set);
 }
 
+TEST(BuildCharts, ObjectsStayApartAtOnePlace) {
+  MeshBuilder b;
+  for (int copy = 0; copy < 3; ++copy) {
+    b.flat_face({{0, 0}, {1, 0}, {1, 1}});
+    b.flat_face({{0, 0}, {1, 1}, {0, 1}});
+  }
+  EXPECT_EQ(charts_of(b.mesh).charts.size(), 1U) << "nothing tells the copies apart";
+  b.mesh.face_object = {7, 7, 0, 0, 7, kNone};
+  const ChartSet set = charts_of(b.mesh);
+  EXPECT_EQ(set.face_chart, (std::vector<std::uint32_t>{0, 0, 1, 1, 0, 2}));
+  EXPECT_EQ(set.stacked, 3U);
+  expect_consistent(b.mesh, set);
+  const ChartSet kept = charts_of(b.mesh, Stacked::keep);
+  EXPECT_EQ(kept.face_chart, (std::vector<std::uint32_t>{0, 0, 0, 0, 0, 0}));
+  EXPECT_DOUBLE_EQ(kept.total_area(), 1);
+}
+
+TEST(BuildCharts, FacesThatAreThereTwiceAreAllKept) {
+  MeshBuilder b;
+  for (int copy = 0; copy < 3; ++copy) b.flat_face({{0, 0}, {1, 0}, {1, 1}});
+  const ChartSet set = charts_of(b.mesh);
+  ASSERT_EQ(set.charts.size(), 1U);
+  EXPECT_EQ(set.charts[0].triangles.size(), 3U);
+  EXPECT_EQ(set.charts[0].points.size(), 3U);
+  EXPECT_DOUBLE_EQ(set.charts[0].area, 0.5);
+  EXPECT_DOUBLE_EQ(set.charts[0].overlap, 1);
+  expect_consistent(b.mesh, set);
+}
+
+TEST(Mesh, ObjectsOfSomeFacesAlone) {
+  MeshBuilder b;
+  b.flat_face({{0, 0}, {1, 0}, {1, 1}});
+  b.flat_face({{0, 0}, {1, 1}, {0, 1}});
+  b.mesh.face_object = {0};
+  EXPECT_FALSE(validate_mesh(b.mesh));
+  b.mesh.face_object = {0, 1};
+  EXPECT_TRUE(validate_mesh(b.mesh));
+}
+
+TEST(Mesh, WeldedCornersAreOfOneObject) {
+  MeshBuilder b;
+  b.flat_face({{0, 0}, {1, 0}, {1, 1}});
+  b.flat_face({{-0.0, 0}, {1, 1}, {0, 1}});
+  EXPECT_EQ(weld_corners(b.mesh).of_corner, (std::vector<std::uint32_t>{0, 1, 2, 0, 2, 5}));
+  b.mesh.face_object = {3, 4};
+  const WeldedCorners apart = weld_corners(b.mesh);
+  EXPECT_EQ(apart.of_corner, (std::vector<std::uint32_t>{0, 1, 2, 6, 7, 5}));
+  EXPECT_EQ(apart.count, 8U);
+}
+
 TEST(BuildCharts, SameUvAtOtherPositionsIsNoConnection) {
   MeshBuilder b;
   b.flat_face({{0, 0}, {1, 0}, {1, 1}}, 0);

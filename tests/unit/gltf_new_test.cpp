@@ -82,6 +82,28 @@ TEST(GltfNew, CutFacesToo) {
   EXPECT_NEAR(area_of(read->mesh), area_of(mesh), 1e-6);
 }
 
+TEST(GltfNew, AMeshForEachObject) {
+  Mesh mesh = polygons();
+  for (const auto& objects : {std::vector<std::uint32_t>{5, 2, 5}, {}}) {
+    mesh.face_object = objects;
+    const auto uv = [](std::size_t, std::size_t k) { return Vec2{static_cast<double>(k), 0}; };
+    const auto path = output_path("objects.glb");
+    ASSERT_TRUE(write_new_gltf(path, mesh, atlas_with(mesh, uv), true));
+    const GltfFile file = reopen(path);
+    const std::size_t count = objects.empty() ? 1 : 2;
+    EXPECT_EQ(file.json["meshes"].size(), count);
+    EXPECT_EQ(file.json["nodes"].size(), count);
+    EXPECT_EQ(file.json["scenes"][0]["nodes"].size(), count);
+    const auto read = read_gltf(*read_file(path), true, "objects", path, {});
+    ASSERT_TRUE(read) << read.error().message();
+    EXPECT_NEAR(area_of(read->mesh), area_of(mesh), 1e-6);
+    // The quad and the triangle without UVs are of object 5.
+    EXPECT_EQ(read->mesh.face_object, objects.empty()
+                                          ? std::vector<std::uint32_t>{}
+                                          : (std::vector<std::uint32_t>{0, 0, 0, 1, 1, 1}));
+  }
+}
+
 TEST(GltfNew, NoFacesIsAnError) {
   EXPECT_FALSE(write_new_gltf(output_path("none.glb"), Mesh{}, AtlasMesh{}, true));
 }

@@ -64,6 +64,7 @@ TEST(GltfRead, MeshesAndPrimitivesInOrderOncePerInstance) {
   EXPECT_EQ(model->mesh.corner_position, (std::vector<std::uint32_t>{0, 1, 2, 2, 1, 3, 3, 1, 4}));
   EXPECT_EQ(model->mesh.corner_texcoord, model->mesh.corner_position);
   EXPECT_EQ(model->mesh.texcoords[4], (Vec2{2, 1}));
+  EXPECT_EQ(model->mesh.face_object, (std::vector<std::uint32_t>{0, 0, 1})) << "one per mesh";
 }
 
 TEST(GltfRead, JsonWithDataUriIsTheSame) {

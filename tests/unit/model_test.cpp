@@ -124,6 +124,18 @@ TEST(Model, ApplyAtlasInterpolatesAndSharesCutPoints) {
   EXPECT_TRUE(validate_mesh(applied));
 }
 
+TEST(Model, ObjectsGoWithTheirFaces) {
+  Model model = square();
+  model.mesh.face_object = {4, 1};
+  EXPECT_EQ(apply_atlas(model.mesh, halved_atlas(model.mesh)).face_object,
+            (std::vector<std::uint32_t>{4, 4, 1, 1}));
+  model.source.reset();
+  const Result<Model> obj =
+      model_from(saved_bytes(model, identity_atlas(model.mesh), ".obj"), FileFormat::obj);
+  ASSERT_TRUE(obj);
+  EXPECT_EQ(obj->mesh.face_object, (std::vector<std::uint32_t>{0, 1}));
+}
+
 // The v axis of glTF points down: writing it as OBJ turns the atlas, chart by chart.
 TEST(Model, TurnsTheVAxisBetweenFormats) {
   Model model = square();

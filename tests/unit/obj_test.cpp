@@ -56,6 +56,18 @@ TEST(Obj, ReadsFacesAndUvs) {
   EXPECT_FALSE(model.v_points_down);
 }
 
+TEST(Obj, ObjectsByTheirNames) {
+  const auto objects = [](const std::string& text) { return obj(kPlain + text).mesh.face_object; };
+  using Objects = std::vector<std::uint32_t>;
+  EXPECT_EQ(objects("f 1 2 3\nf 1 2 3\n"), Objects{});
+  EXPECT_EQ(objects("o a\ng x\nf 1 2 3\ng y\nusemtl m\nf 1 2 3\n"), Objects{});
+  EXPECT_EQ(objects("o empty\no a\nf 1 2 3\no a\nf 1 2 3\n"), Objects{});
+  EXPECT_EQ(objects("f 1 2 3\no a\nf 1 2 3\n"), (Objects{0, 1}));
+  EXPECT_EQ(objects("o a\nf 1 2 3\no b\nf 1 2 3\nf 1 2 3\no\t a \r\nf 1 2 3\n"),
+            (Objects{0, 1, 1, 0}));
+  EXPECT_EQ(objects("o a b\nf 1 2 3\no a c\nf 1 2 3\no\nf 1 2 3\n"), (Objects{0, 1, 2}));
+}
+
 TEST(Obj, ReadsAllFormsOfCornersAndIndices) {
   const Model model = obj(kPlain + "vt 0 0\nvt 1 0\nvn 0 0 1\nf 1 2//1 -1/-2\nf +1/ 2/2/-1 3/1/\n");
   EXPECT_EQ(model.mesh.corner_position, (std::vector<std::uint32_t>{0, 1, 2, 0, 1, 2}));

@@ -13,7 +13,7 @@
 
 namespace wrapatlas {
 
-enum class Method { lprm02, swg03, zsgs04, modulo };
+enum class Method { lprm02, swg03, zsgs04, modulo, guided };
 
 /// Which axes of the atlas are cyclic.
 enum class Wrap { none, u, v, uv };
@@ -55,6 +55,7 @@ struct PackOptions {
   double lambda = 1.1;       ///< penalty of outer placements (modulo), 0 to 1e6
   bool inner = true;         ///< modulo: also try the four inner strategies
   bool all_sides = false;    ///< zsgs04: try all four sides for every chart
+  double time = 3;           ///< guided: seconds to search; 0: best fit alone
   int threads = 0;           ///< 0: as many as the machine has; never changes the result
   std::uint64_t seed = 0;    ///< reported; the methods here draw no random numbers
 

@@ -13,6 +13,7 @@
 #include <optional>
 
 #include "charts/hull.h"
+#include "guided/guided.h"
 #include "pack/frame.h"
 #include "pack/parallel.h"
 #include "pack/placer.h"
@@ -62,7 +63,8 @@ Status check_options(const PackOptions& options) {
     return usage(fmt::format("a lambda of {} is out of range", options.lambda),
                  "use 0 to 1e6; the paper uses 1.1");
   }
-  if (options.method != Method::modulo && options.wrap != Wrap::none) {
+  if (options.method != Method::modulo && options.method != Method::guided &&
+      options.wrap != Wrap::none) {
     return usage("only the modulo packer can wrap", "use --wrap none with this method");
   }
   return Done{};
@@ -92,6 +94,7 @@ PlaceFunction place_function(Method method) {
     case Method::zsgs04:
       return place_zsgs04;
     case Method::modulo:
+    case Method::guided:  // has its own search
       return place_modulo;
   }
   return place_modulo;
@@ -306,6 +309,7 @@ Result<Packing> pack(std::span<const Chart> charts, const PackOptions& options) 
     return Error{ErrorKind::input, "charts", "their total area is zero or not finite",
                  "unwrap the mesh again: its UVs are collapsed"};
   }
+  if (options.method == Method::guided) return pack_guided(charts, options);
   auto frames = make_frames(options, charts.size());
   if (!frames) return frames.error();
 

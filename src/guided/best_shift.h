@@ -1,0 +1,41 @@
+// Where does a piece cost least? Every translation in a range is looked at, with early ends.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "guided/field.h"
+
+namespace wrapatlas {
+
+/// Translations to look at, counted from the field's origin.
+struct ShiftRange {
+  int x_begin = 0, x_end = 0;
+  int y_begin = 0, y_end = 0;
+  int y_start = 0;  ///< the row of translations to begin with; the others follow around
+};
+
+/// A translation and what a piece costs there: the weights of all cells it covers, at most
+/// kMostCost, which stands for any more as well.
+struct Shift {
+  std::uint16_t cost = 0;
+  int x = 0, y = 0;
+};
+inline constexpr std::uint16_t kMostCost = 0xffff;
+
+/// The first translation in the range that costs least, if that is less than best.cost; else best
+/// stays. Runs the widest SIMD version the machine has; all give the same answer.
+void best_shift(const Field& field, std::span<const PieceRun> runs, const ShiftRange& range,
+                Shift& best);
+
+/// What a piece costs at one place.
+std::uint16_t cost_at(const Field& field, std::span<const PieceRun> runs, int x, int y);
+
+using BestShiftKernel = void (*)(const Field& field, std::span<const PieceRun> runs,
+                                 const ShiftRange& range, Shift& best);
+/// The versions, for tests and benchmarks; null where the machine lacks one.
+BestShiftKernel best_shift_scalar();
+BestShiftKernel best_shift_avx2();
+BestShiftKernel best_shift_avx512();
+
+}  // namespace wrapatlas

@@ -1,0 +1,139 @@
+#include "guided/coarse.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace wrapatlas {
+namespace {
+
+constexpr double kAimed = 0.85;  ///< efficiency at which the domain has CoarseOptions::side cells
+constexpr double kStart = 0.55;  ///< efficiency of the first domain
+
+std::vector<Place> scaled(const std::vector<Place>& places, PieceLibrary& library,
+                          const Domain& from, const Domain& to) {
+  Layout layout;
+  layout.spots = to_spots(places, library, from);
+  return to_places(layout, library, to);
+}
+
+}  // namespace
+
+CoarseSearch::CoarseSearch(std::span<const ChartShape> shapes, Vec2 lengths, bool wraps_x,
+                           bool wraps_y, const CoarseOptions& options, std::uint64_t seed)
+    : shapes_(shapes),
+      lengths_(lengths),
+      wraps_x_(wraps_x),
+      wraps_y_(wraps_y),
+      options_(options),
+      random_(seed) {
+  for (const ChartShape& shape : shapes_) area_ += shape.area;
+  cells_per_unit_ = options_.side * std::sqrt(kAimed / area_);
+  RasterScale scale;
+  scale.cells_per_unit = {cells_per_unit_, cells_per_unit_};
+  scale.growth = options_.grown * options_.side / std::sqrt(lengths_.x * lengths_.y);
+  scale.coverage = Coverage::center;
+  library_ = std::make_unique<PieceLibrary>(shapes_, scale, options_.angles, 4 * options_.side);
+  step_ = static_cast<int>(std::lround(options_.side * std::sqrt(kAimed / kStart)));
+  step_of_places_ = step_;
+  const Domain domain = domain_at(step_);
+  for (std::size_t i = 0; i < shapes_.size(); ++i) {
+    places_.push_back({random_.below(options_.angles), random_.below(domain.width),
+                       random_.below(domain.height)});
+  }
+}
+
+Domain CoarseSearch::domain_at(int step) const {
+  const double aspect = std::sqrt(lengths_.x / lengths_.y);
+  return {std::max(1, static_cast<int>(std::lround(step * aspect))),
+          std::max(1, static_cast<int>(std::lround(step / aspect))), wraps_x_, wraps_y_};
+}
+
+double CoarseSearch::efficiency() const {
+  if (!found()) return 0;
+  const Domain domain = domain_at(best_step_);
+  return cells_per_unit_ * cells_per_unit_ * area_ / (double(domain.width) * domain.height);
+}
+
+Layout CoarseSearch::best() {
+  const Domain domain = domain_at(best_step_);
+  Layout layout;
+  layout.spots = to_spots(best_places_, *library_, domain);
+  layout.scale =
+      cells_per_unit_ * std::sqrt(lengths_.x * lengths_.y / (double(domain.width) * domain.height));
+  return layout;
+}
+
+void CoarseSearch::adopt(const CoarseSearch& other) {
+  best_step_ = other.best_step_;
+  best_places_ = other.best_places_;
+  places_ = best_places_;
+  step_of_places_ = best_step_;
+  step_ = best_step_ - 1;
+}
+
+/// Turns charts that cannot lie in the domain at their angle.
+bool CoarseSearch::fit_angles(const Domain& domain, std::vector<Place>& places) {
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    int tries = 0;
+    const int first = places[i].angle;
+    while (!admits(domain, library_->piece(i, places[i].angle))) {
+      if (++tries == options_.angles) return false;
+      places[i].angle = (first + tries) % options_.angles;
+    }
+    const Piece& piece = library_->piece(i, places[i].angle);
+    if (!domain.wraps_x) places[i].x = std::clamp(places[i].x, 0, domain.width - piece.width);
+    if (!domain.wraps_y) places[i].y = std::clamp(places[i].y, 0, domain.height - piece.height);
+  }
+  return true;
+}
+
+/// Swaps two charts, or throws a few anywhere.
+void CoarseSearch::disturb(std::vector<Place>& places, const Domain& domain) {
+  const int count = static_cast<int>(places.size());
+  const int swaps = 1 + random_.below(2);
+  for (int i = 0; i < swaps; ++i) {
+    Place& a = places[static_cast<std::size_t>(random_.below(count))];
+    Place& b = places[static_cast<std::size_t>(random_.below(count))];
+    std::swap(a.x, b.x);
+    std::swap(a.y, b.y);
+  }
+  if (count < 3) {
+    Place& place = places[static_cast<std::size_t>(random_.below(count))];
+    place = {random_.below(options_.angles), random_.below(domain.width),
+             random_.below(domain.height)};
+  }
+}
+
+void CoarseSearch::run(Effort& effort, bool until_stuck) {
+  SeparateOptions options;
+  options.stall_rounds = options_.stall_rounds;
+  options.effort = &effort;
+  while (step_ > 1 && !effort.spent()) {
+    const Domain domain = domain_at(step_);
+    std::vector<Place> places = scaled(places_, *library_, domain_at(step_of_places_), domain);
+    bool filled = false;
+    if (fit_angles(domain, places)) {
+      Separator separator(*library_, domain, random_);
+      filled = separator.run(places, options);
+    }
+    if (filled) {
+      best_step_ = step_;
+      best_places_ = places_ = places;
+      step_of_places_ = step_--;
+      continue;
+    }
+    if (effort.spent()) break;
+    if (!found()) {  // a hard set: more room
+      step_ += 1 + step_ / 20;
+      places_ = places;
+      step_of_places_ = step_;
+      continue;
+    }
+    places_ = best_places_;
+    step_of_places_ = best_step_;
+    disturb(places_, domain_at(best_step_));
+    if (until_stuck) break;
+  }
+}
+
+}  // namespace wrapatlas

@@ -1,0 +1,59 @@
+// The search for a dense layout on a coarse grid: charts keep their size and the domain shrinks
+// around them, a cell at a time.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "guided/effort.h"
+#include "guided/layout.h"
+#include "guided/random.h"
+#include "guided/separate.h"
+
+namespace wrapatlas {
+
+struct CoarseOptions {
+  int side = 160;    ///< cells along the side of a square domain packed to 85 %
+  int angles = 64;   ///< tried per chart; divides kAngleSteps
+  double grown = 0;  ///< texels by which charts are grown
+  int stall_rounds = 40;
+};
+
+/// One line of search on one shape of domain.
+class CoarseSearch {
+ public:
+  /// `lengths`: of the domain, texels.
+  CoarseSearch(std::span<const ChartShape> shapes, Vec2 lengths, bool wraps_x, bool wraps_y,
+               const CoarseOptions& options, std::uint64_t seed);
+
+  /// Goes on until the effort is spent, or `until_stuck` and a domain has not been filled.
+  void run(Effort& effort, bool until_stuck);
+
+  [[nodiscard]] bool found() const { return best_step_ > 0; }
+  /// The densest layout so far. Precondition: found().
+  [[nodiscard]] Layout best();
+  /// Share of the domain that its charts cover, an estimate.
+  [[nodiscard]] double efficiency() const;
+  /// Takes over a layout of the same charts and shape of domain.
+  void adopt(const CoarseSearch& other);
+
+ private:
+  [[nodiscard]] Domain domain_at(int step) const;
+  [[nodiscard]] bool fit_angles(const Domain& domain, std::vector<Place>& places);
+  void disturb(std::vector<Place>& places, const Domain& domain);
+
+  std::span<const ChartShape> shapes_;
+  Vec2 lengths_;
+  bool wraps_x_, wraps_y_;
+  CoarseOptions options_;
+  double cells_per_unit_ = 0, area_ = 0;
+  std::unique_ptr<PieceLibrary> library_;
+  Random random_;
+  int step_ = 0;       ///< size of the domain now tried, cells of a square of its area
+  int best_step_ = 0;  ///< smallest domain filled; 0: none
+  int step_of_places_ = 0;
+  std::vector<Place> places_, best_places_;
+};
+
+}  // namespace wrapatlas

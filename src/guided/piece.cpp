@@ -1,0 +1,96 @@
+#include "guided/piece.h"
+
+#include <algorithm>
+
+namespace wrapatlas {
+namespace {
+
+/// Numbers 0 ... count - 1 so that any first few of them lie far apart: the van der Corput order.
+std::vector<int> spread_order(int count) {
+  int bits = 0;
+  while ((1 << bits) < count) ++bits;
+  std::vector<int> order;
+  order.reserve(static_cast<std::size_t>(count));
+  for (int i = 0; i < (1 << bits); ++i) {
+    int reversed = 0;
+    for (int bit = 0; bit < bits; ++bit) reversed |= ((i >> bit) & 1) << (bits - 1 - bit);
+    if (reversed < count) order.push_back(reversed);
+  }
+  return order;
+}
+
+/// Moves long runs that lie far apart to the front.
+void lead_with_telling_runs(std::vector<PieceRun>& runs, int height) {
+  constexpr std::size_t kLead = 12;
+  std::vector<int> distance(runs.size(), std::max(1, height / 3));
+  for (std::size_t i = 0; i < std::min(kLead, runs.size()); ++i) {
+    std::size_t best = i;
+    int best_score = -1;
+    for (std::size_t k = i; k < runs.size(); ++k) {
+      const int score = (runs[k].end - runs[k].begin) * distance[k];
+      if (score > best_score) {
+        best_score = score;
+        best = k;
+      }
+    }
+    std::swap(runs[i], runs[best]);
+    std::swap(distance[i], distance[best]);
+    for (std::size_t k = i + 1; k < runs.size(); ++k) {
+      distance[k] = std::min(distance[k], std::abs(runs[k].row - runs[i].row));
+    }
+  }
+}
+
+}  // namespace
+
+Piece make_piece(const ChartRaster& raster, Vec2 centre) {
+  Piece piece;
+  piece.width = raster.width;
+  piece.height = raster.height;
+  piece.cells = raster.cells;
+  piece.angle = raster.angle;
+  piece.offset = raster.offset;
+  piece.centre = centre;
+  if (raster.width == 0) return piece;
+  const BitLanes& rows = raster.rows.bits;
+  std::vector<std::size_t> row_begin;
+  for (int y = 0; y < rows.lanes; ++y) {
+    row_begin.push_back(piece.runs.size());
+    for_each_run(rows.lane(y), rows.length, [&](int begin, int end) {
+      piece.runs.push_back({y, begin, end});
+    });
+  }
+  row_begin.push_back(piece.runs.size());
+  for (const int y : spread_order(rows.lanes)) {
+    const auto row = static_cast<std::size_t>(y);
+    for (std::size_t i = row_begin[row]; i < row_begin[row + 1]; ++i) {
+      const PieceRun run = piece.runs[i];
+      for (int begin = run.begin; begin < run.end; begin += kLongestRun) {
+        piece.spread.push_back({run.row, begin, std::min(begin + kLongestRun, run.end)});
+      }
+    }
+  }
+  lead_with_telling_runs(piece.spread, piece.height);
+  return piece;
+}
+
+bool admits(const Domain& domain, const Piece& piece) {
+  if (piece.width == 0) return false;
+  const bool wide = piece.width > domain.width, high = piece.height > domain.height;
+  if (!wide && !high) return true;
+  if ((wide && !domain.wraps_x) || (high && !domain.wraps_y)) return false;
+  std::vector<bool> covered(static_cast<std::size_t>(domain.width) *
+                            static_cast<std::size_t>(domain.height));
+  for (const PieceRun& run : piece.runs) {
+    const auto row =
+        static_cast<std::size_t>(run.row % domain.height) * static_cast<std::size_t>(domain.width);
+    for (int x = run.begin; x < run.end; ++x) {
+      auto cell = covered[row + static_cast<std::size_t>(x % domain.width)];
+      if (cell) return false;
+      cell = true;
+    }
+  }
+  return true;
+}
+
+}  // namespace wrapatlas

@@ -1,0 +1,46 @@
+// A chart at one angle and the domain it lies in, as the guided packer sees them: runs of cells.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "raster/bits.h"
+#include "raster/chart_raster.h"
+#include "wrapatlas/geometry.h"
+
+namespace wrapatlas {
+
+/// The cells that charts are placed on; opposite sides are one where an axis wraps.
+struct Domain {
+  int width = 0, height = 0;
+  bool wraps_x = false, wraps_y = false;
+};
+
+/// Cells [begin, end) of one row of a piece.
+struct PieceRun {
+  std::int32_t row = 0, begin = 0, end = 0;
+};
+
+/// Longest run in Piece::spread: with the largest weight of a cell this bounds the cost of one run
+/// (see field.h).
+inline constexpr int kLongestRun = 128;
+
+/// One chart at one angle and one scale.
+struct Piece {
+  int width = 0, height = 0;   ///< cells; 0: too long to be made
+  std::int64_t cells = 0;      ///< covered
+  double angle = 0;            ///< radians
+  Vec2 offset;                 ///< chart point p lies at M p + offset, for cell (0,0) at the origin
+  Vec2 centre;                 ///< where the chart's centre lies
+  std::vector<PieceRun> runs;  ///< row by row
+  std::vector<PieceRun> spread;  ///< the same cells, cut to kLongestRun, rows far apart first
+};
+
+/// The runs of a raster. `centre` is the chart's, in cells from the raster's cell (0,0).
+Piece make_piece(const ChartRaster& raster, Vec2 centre);
+
+/// Can the piece lie in the domain at all: inside the sides that do not wrap, and not over itself
+/// across those that do?
+bool admits(const Domain& domain, const Piece& piece);
+
+}  // namespace wrapatlas

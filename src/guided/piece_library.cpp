@@ -1,0 +1,31 @@
+#include "guided/piece_library.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace wrapatlas {
+
+PieceLibrary::PieceLibrary(std::span<const ChartShape> shapes, const RasterScale& scale, int angles,
+                           int max_side)
+    : shapes_(shapes),
+      scale_(scale),
+      angles_(angles),
+      max_side_(max_side),
+      pieces_(shapes.size()) {}
+
+const Piece& PieceLibrary::piece(std::size_t chart, int angle) {
+  std::unique_ptr<Piece>& slot = pieces_[chart][angle];
+  if (!slot) {
+    const ChartShape& shape = shapes_[chart];
+    const double radians = shape.base_angle + 2 * std::numbers::pi * angle / angles_;
+    const ChartRaster raster = rasterize(shape.raster, scale_, radians, max_side_);
+    const Vec2 centre = shape.raster.centre, cells = scale_.cells_per_unit;
+    const double c = std::cos(radians), s = std::sin(radians);
+    slot = std::make_unique<Piece>(
+        make_piece(raster, {(c * centre.x - s * centre.y) * cells.x + raster.offset.x,
+                            (s * centre.x + c * centre.y) * cells.y + raster.offset.y}));
+  }
+  return *slot;
+}
+
+}  // namespace wrapatlas

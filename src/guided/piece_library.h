@@ -1,0 +1,42 @@
+// The pieces of all charts at one scale, made when first asked for.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <unordered_map>
+#include <vector>
+
+#include "guided/piece.h"
+#include "raster/chart_raster.h"
+
+namespace wrapatlas {
+
+/// What of a chart the search needs, whatever the scale.
+struct ChartShape {
+  RasterShape raster;
+  double base_angle = 0;  ///< radians; angles are counted from here
+  double area = 0;        ///< input units^2
+};
+
+/// Angle number k of a chart is base_angle + 2 pi k / angles. Not for several threads at once.
+class PieceLibrary {
+ public:
+  PieceLibrary(std::span<const ChartShape> shapes, const RasterScale& scale, int angles,
+               int max_side);
+
+  [[nodiscard]] std::size_t charts() const { return shapes_.size(); }
+  [[nodiscard]] int angles() const { return angles_; }
+  [[nodiscard]] const RasterScale& scale() const { return scale_; }
+  /// Stays valid for the life of the library.
+  const Piece& piece(std::size_t chart, int angle);
+
+ private:
+  std::span<const ChartShape> shapes_;
+  RasterScale scale_;
+  int angles_;
+  int max_side_;
+  std::vector<std::unordered_map<int, std::unique_ptr<Piece>>> pieces_;
+};
+
+}  // namespace wrapatlas

@@ -1,0 +1,36 @@
+// From a layout found on a coarse grid to a packing that keeps its promises: the last grid is fine
+// and conservative, moves are small, and the scale grows until nothing gives any more.
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "guided/effort.h"
+#include "guided/layout.h"
+#include "guided/random.h"
+#include "pack/frame.h"
+#include "wrapatlas/pack.h"
+
+namespace wrapatlas {
+
+/// A layout without overlap on the final grid.
+struct FineLayout {
+  Layout layout;
+  std::vector<Placement> placements;
+  std::int64_t covered_cells = 0;
+};
+
+struct RefineOptions {
+  double first_step = 0.01;  ///< of the scale, relative
+  double last_step = 0.001;
+  int stall_rounds = 10;
+  int window = 6;  ///< cells
+};
+
+/// The largest scale at which the layout, slightly moved, is valid. Nothing if the effort was spent
+/// before one was found, or there is none.
+std::optional<FineLayout> refine(std::span<const ChartShape> shapes, const Frame& frame,
+                                 const PackOptions& options, const Layout& start,
+                                 const RefineOptions& how, Effort& effort, Random& random);
+
+}  // namespace wrapatlas

@@ -1,0 +1,223 @@
+#include "guided/separate.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace wrapatlas {
+namespace {
+
+constexpr float kWeightUnit = 8;     ///< field weight of a cell whose pair has weight 1
+constexpr float kLargestPair = 120;  ///< field weight of the dearest pair
+constexpr float kDecay = 0.95F;
+
+int modulo(int value, int size) {
+  const int rest = value % size;
+  return rest < 0 ? rest + size : rest;
+}
+
+/// Translations along one axis of the whole domain.
+int positions(int size, int piece, bool wraps) { return wraps ? size : size - piece + 1; }
+
+/// The part of an axis that a piece at `begin` with `length` cells covers when moved by up to
+/// `window` cells; and which translations of it those moves are.
+struct Window {
+  Stretch stretch;
+  int begin = 0, end = 0;  ///< translations, from the stretch's origin
+};
+Window window_around(int begin, int length, int window, int size, bool wraps) {
+  if (wraps) {
+    if (length + 2 * window >= size) {
+      const int around = std::min(window, (size - 1) / 2);
+      // The whole axis, turned so that the moves are one range of translations.
+      return {{modulo(begin - around, size), size, true}, 0, 2 * around + 1};
+    }
+    return {{modulo(begin - window, size), length + 2 * window, false}, 0, 2 * window + 1};
+  }
+  const int from = std::max(0, begin - window), to = std::min(size - length, begin + window);
+  return {{from, to + length - from, false}, 0, to - from + 1};
+}
+
+}  // namespace
+
+Separator::Separator(PieceLibrary& library, const Domain& domain, Random& random)
+    : library_(library),
+      domain_(domain),
+      random_(random),
+      count_(library.charts()),
+      covers_(count_),
+      overlap_(count_ * count_),
+      weight_(count_ * count_, 1.0F) {}
+
+void Separator::put(std::size_t chart, const Place& place) {
+  places_[chart] = place;
+  covers_[chart].set(domain_, library_.piece(chart, place.angle), place.x, place.y);
+  for (std::size_t other = 0; other < count_; ++other) {
+    if (other == chart) continue;
+    const auto shared = static_cast<std::int32_t>(Cover::shared(covers_[chart], covers_[other]));
+    overlap_[pair(chart, other)] = overlap_[pair(other, chart)] = shared;
+  }
+}
+
+void Separator::take(const std::vector<Place>& places) {
+  places_ = places;
+  for (std::size_t i = 0; i < count_; ++i) {
+    const Place& p = places_[i];
+    covers_[i].set(domain_, library_.piece(i, p.angle), p.x, p.y);
+  }
+  for (std::size_t i = 0; i < count_; ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      overlap_[pair(i, j)] = overlap_[pair(j, i)] =
+          static_cast<std::int32_t>(Cover::shared(covers_[i], covers_[j]));
+    }
+  }
+}
+
+bool Separator::overlaps(std::size_t chart) const {
+  for (std::size_t j = 0; j < count_; ++j) {
+    if (overlap_[pair(chart, j)] > 0) return true;
+  }
+  return false;
+}
+
+std::int64_t Separator::total() const {
+  std::int64_t sum = 0;
+  for (std::size_t i = 0; i < count_; ++i) {
+    for (std::size_t j = 0; j < i; ++j) sum += overlap_[pair(i, j)];
+  }
+  return sum;
+}
+
+void Separator::fill_field(std::size_t chart, const Stretch& x, const Stretch& y) {
+  float largest = 1;
+  for (std::size_t j = 0; j < count_; ++j) largest = std::max(largest, weight_[pair(chart, j)]);
+  const float unit = std::min(kWeightUnit, kLargestPair / largest);
+  const Piece& piece = library_.piece(chart, places_[chart].angle);
+  // No angle makes a piece longer than its diagonal, but for the cells at its ends.
+  const int reach = static_cast<int>(std::hypot(piece.width, piece.height)) + 4;
+  field_.reset(domain_, x, y, reach);
+  for (std::size_t j = 0; j < count_; ++j) {
+    if (j == chart) continue;
+    const Place& p = places_[j];
+    const int weight = std::max(1, static_cast<int>(std::lround(unit * weight_[pair(chart, j)])));
+    field_.add(library_.piece(j, p.angle), p.x, p.y, weight);
+  }
+  field_.sum();
+}
+
+void Separator::move_anywhere(std::size_t chart, const SeparateOptions& options) {
+  fill_field(chart, {0, domain_.width, domain_.wraps_x}, {0, domain_.height, domain_.wraps_y});
+  const Place old = places_[chart];
+  Place to = old;
+  Shift best{cost_at(field_, library_.piece(chart, old.angle).spread, old.x, old.y), old.x, old.y};
+  const auto try_angle = [&](int angle) {
+    const Piece& piece = library_.piece(chart, angle);
+    if (!admits(domain_, piece)) return;
+    ShiftRange range;
+    range.x_end = positions(domain_.width, piece.width, domain_.wraps_x);
+    range.y_end = positions(domain_.height, piece.height, domain_.wraps_y);
+    range.y_start = random_.below(range.y_end);
+    const std::uint16_t before = best.cost;
+    best_shift(field_, piece.spread, range, best);
+    if (best.cost < before) to = {angle, best.x, best.y};
+  };
+  try_angle(old.angle);
+  const int first = random_.below(library_.angles());
+  for (int k = 0; k < library_.angles() && best.cost > 0; ++k) {
+    const int angle = (first + k) % library_.angles();
+    if (angle != old.angle && random_.unit() < options.angle_share) try_angle(angle);
+  }
+  put(chart, to);
+}
+
+void Separator::move_nearby(std::size_t chart, const SeparateOptions& options) {
+  const Place old = places_[chart];
+  const Piece& piece = library_.piece(chart, old.angle);
+  // Room for pieces a little larger, as other angles may have them.
+  constexpr int kSpare = 8;
+  const Window x =
+      window_around(old.x, piece.width, options.window + kSpare, domain_.width, domain_.wraps_x);
+  const Window y =
+      window_around(old.y, piece.height, options.window + kSpare, domain_.height, domain_.wraps_y);
+  fill_field(chart, x.stretch, y.stretch);
+  Place to = old;
+  Shift best{kMostCost, 0, 0};
+  const auto try_angle = [&](int angle) {
+    const Piece& turned = library_.piece(chart, angle);
+    if (!admits(domain_, turned)) return;
+    // Same centre, then the window.
+    const auto range_along = [&](double old_centre, double centre, int old_begin, const Window& w,
+                                 int length, int size, bool wraps, int& begin, int& end) {
+      const int aligned = old_begin + static_cast<int>(std::lround(old_centre - centre));
+      const int at = wraps ? modulo(aligned - w.stretch.origin, size) : aligned - w.stretch.origin;
+      begin = std::max(at - options.window, 0);
+      end = at + options.window + 1;
+      const int room = w.stretch.cyclic ? w.stretch.count : w.stretch.count - length + 1;
+      end = std::min(end, room);
+    };
+    ShiftRange range;
+    range_along(piece.centre.x, turned.centre.x, old.x, x, turned.width, domain_.width,
+                domain_.wraps_x, range.x_begin, range.x_end);
+    range_along(piece.centre.y, turned.centre.y, old.y, y, turned.height, domain_.height,
+                domain_.wraps_y, range.y_begin, range.y_end);
+    if (range.x_begin >= range.x_end || range.y_begin >= range.y_end) return;
+    range.y_start = range.y_begin + random_.below(range.y_end - range.y_begin);
+    const std::uint16_t before = best.cost;
+    best_shift(field_, turned.spread, range, best);
+    if (best.cost < before) {
+      to = {angle, x.stretch.origin + best.x, y.stretch.origin + best.y};
+      if (domain_.wraps_x) to.x = modulo(to.x, domain_.width);
+      if (domain_.wraps_y) to.y = modulo(to.y, domain_.height);
+    }
+  };
+  try_angle(old.angle);
+  for (int k = 0; k < 2 && best.cost > 0; ++k) {
+    const int step = 1 + random_.below(options.angle_step);
+    try_angle(modulo(old.angle + (k == 0 ? step : -step), library_.angles()));
+  }
+  put(chart, to);
+}
+
+void Separator::raise_weights() {
+  const auto most = static_cast<float>(*std::max_element(overlap_.begin(), overlap_.end()));
+  for (std::size_t i = 0; i < weight_.size(); ++i) {
+    if (overlap_[i] > 0) {
+      weight_[i] *= 1.2F + 0.8F * static_cast<float>(overlap_[i]) / most;
+    } else {
+      weight_[i] = std::max(1.0F, weight_[i] * kDecay);
+    }
+  }
+}
+
+bool Separator::run(std::vector<Place>& places, const SeparateOptions& options) {
+  take(places);
+  std::fill(weight_.begin(), weight_.end(), 1.0F);
+  least_ = total();
+  std::vector<std::size_t> order;
+  for (int stall = 0; least_ > 0 && stall < options.stall_rounds; ++stall) {
+    order.clear();
+    for (std::size_t i = 0; i < count_; ++i) {
+      if (overlaps(i)) order.push_back(i);
+    }
+    shuffle(order, random_);
+    for (const std::size_t chart : order) {
+      if (!overlaps(chart)) continue;
+      if (options.window > 0) {
+        move_nearby(chart, options);
+      } else {
+        move_anywhere(chart, options);
+      }
+      options.effort->count_move();
+      if (options.effort->spent()) return least_ == 0;
+    }
+    const std::int64_t now = total();
+    if (now < least_) {
+      if (now * 50 < least_ * 49) stall = 0;
+      least_ = now;
+      places = places_;
+    }
+    raise_weights();
+  }
+  return least_ == 0;
+}
+
+}  // namespace wrapatlas

@@ -61,18 +61,44 @@ void Field::add(const Piece& piece, int x, int y, int weight) {
   }
 }
 
-void Field::sum() {
-  for (int y = 0; y < y_.count; ++y) {
-    std::uint16_t* row = sums_.data() + static_cast<std::ptrdiff_t>(y) * stride_;
-    std::uint16_t weight = 0, sum = 0;
-    for (int x = 0; x < x_.count; ++x) {
-      weight = static_cast<std::uint16_t>(weight + row[x]);
-      row[x] = sum;
-      sum = static_cast<std::uint16_t>(sum + weight);
+namespace {
+
+/// From changes to weights to prefix sums, several rows at once: within a row each cell waits for
+/// the one before it.
+template <int kRows>
+void sum_rows(std::uint16_t* first, int stride, int count) {
+  std::uint16_t weight[kRows] = {}, sum[kRows] = {};
+  for (int x = 0; x <= count; ++x) {
+    for (int k = 0; k < kRows; ++k) {
+      std::uint16_t& cell = first[static_cast<std::ptrdiff_t>(k) * stride + x];
+      weight[k] = static_cast<std::uint16_t>(weight[k] + cell);
+      cell = sum[k];
+      sum[k] = static_cast<std::uint16_t>(sum[k] + weight[k]);
     }
-    row[x_.count] = sum;
+  }
+}
+
+}  // namespace
+
+void Field::sum() {
+  constexpr int kTogether = 8;
+  std::uint16_t* const first = sums_.data();
+  int y = 0;
+  for (; y + kTogether <= y_.count; y += kTogether) {
+    sum_rows<kTogether>(first + static_cast<std::ptrdiff_t>(y) * stride_, stride_, x_.count);
+  }
+  for (; y < y_.count; ++y) {
+    sum_rows<1>(first + static_cast<std::ptrdiff_t>(y) * stride_, stride_, x_.count);
+  }
+  for (y = 0; y < y_.count; ++y) {
+    std::uint16_t* row = first + static_cast<std::ptrdiff_t>(y) * stride_;
+    const std::uint16_t whole = row[x_.count];
+    if (!x_.cyclic) {
+      std::fill(row + x_.count + 1, row + stride_, whole);
+      continue;
+    }
     for (int x = x_.count + 1; x < stride_; ++x) {
-      row[x] = x_.cyclic ? static_cast<std::uint16_t>(row[x - x_.count] + sum) : sum;
+      row[x] = static_cast<std::uint16_t>(row[x - x_.count] + whole);
     }
   }
 }

@@ -74,20 +74,36 @@ Piece make_piece(const ChartRaster& raster, Vec2 centre) {
   return piece;
 }
 
+namespace {
+
+/// Sets bits [begin, end) of a lane, unless one is set already.
+bool claim_span(std::uint64_t* lane, int begin, int end) {
+  if (next_set(lane, end, begin) < end) return false;
+  set_span(lane, begin, end);
+  return true;
+}
+
+}  // namespace
+
 bool admits(const Domain& domain, const Piece& piece) {
   if (piece.width == 0) return false;
   const bool wide = piece.width > domain.width, high = piece.height > domain.height;
   if (!wide && !high) return true;
   if ((wide && !domain.wraps_x) || (high && !domain.wraps_y)) return false;
-  std::vector<bool> covered(static_cast<std::size_t>(domain.width) *
-                            static_cast<std::size_t>(domain.height));
+  thread_local BitLanes covered;
+  covered.lanes = domain.height;
+  covered.length = domain.width;
+  covered.words = words_for(domain.width);
+  covered.bits.assign(
+      static_cast<std::size_t>(covered.lanes) * static_cast<std::size_t>(covered.words), 0);
   for (const PieceRun& run : piece.runs) {
-    const auto row =
-        static_cast<std::size_t>(run.row % domain.height) * static_cast<std::size_t>(domain.width);
-    for (int x = run.begin; x < run.end; ++x) {
-      auto cell = covered[row + static_cast<std::size_t>(x % domain.width)];
-      if (cell) return false;
-      cell = true;
+    std::uint64_t* lane = covered.lane(run.row % domain.height);
+    int from = run.begin % domain.width;
+    for (int left = run.end - run.begin; left > 0;) {
+      const int part = std::min(left, domain.width - from);
+      if (!claim_span(lane, from, from + part)) return false;
+      left -= part;
+      from = 0;
     }
   }
   return true;

@@ -2,6 +2,10 @@
 
 #include <algorithm>
 
+#if defined(__SSE2__)
+#include <emmintrin.h>
+#endif
+
 namespace wrapatlas {
 namespace {
 constexpr int kReadAhead = 64;  ///< cells a vector may read past the last place asked for
@@ -63,40 +67,64 @@ void Field::add(const Piece& piece, int x, int y, int weight) {
 
 namespace {
 
-/// From changes to weights to prefix sums, several rows at once: within a row each cell waits for
-/// the one before it.
-template <int kRows>
-void sum_rows(std::uint16_t* first, int stride, int count) {
-  std::uint16_t weight[kRows] = {}, sum[kRows] = {};
-  for (int x = 0; x <= count; ++x) {
-    for (int k = 0; k < kRows; ++k) {
-      std::uint16_t& cell = first[static_cast<std::ptrdiff_t>(k) * stride + x];
-      weight[k] = static_cast<std::uint16_t>(weight[k] + cell);
-      cell = sum[k];
-      sum[k] = static_cast<std::uint16_t>(sum[k] + weight[k]);
-    }
+/// From changes to weights to the sums of the weights before each cell, in place; the sum of all.
+std::uint16_t sum_row_from(std::uint16_t* row, int x, int count, std::uint16_t weight,
+                           std::uint16_t sum) {
+  for (; x < count; ++x) {
+    weight = static_cast<std::uint16_t>(weight + row[x]);
+    row[x] = sum;
+    sum = static_cast<std::uint16_t>(sum + weight);
   }
+  return sum;
 }
+
+#if defined(__SSE2__)
+
+/// Each of eight numbers becomes the sum of it and all before it.
+__m128i running_sums(__m128i numbers) {
+  numbers = _mm_add_epi16(numbers, _mm_slli_si128(numbers, 2));
+  numbers = _mm_add_epi16(numbers, _mm_slli_si128(numbers, 4));
+  return _mm_add_epi16(numbers, _mm_slli_si128(numbers, 8));
+}
+
+/// The last of eight numbers, eight times.
+__m128i last_of(__m128i numbers) {
+  return _mm_shuffle_epi32(_mm_shufflehi_epi16(numbers, 0xff), 0xff);
+}
+
+std::uint16_t sum_row(std::uint16_t* row, int count) {
+  __m128i weight_before = _mm_setzero_si128(), sum_before = weight_before;
+  int x = 0;
+  for (; x + 8 <= count; x += 8) {
+    auto* cells = reinterpret_cast<__m128i*>(row + x);
+    const __m128i weights = _mm_add_epi16(running_sums(_mm_loadu_si128(cells)), weight_before);
+    const __m128i sums = _mm_add_epi16(running_sums(weights), sum_before);
+    _mm_storeu_si128(cells, _mm_sub_epi16(sums, weights));
+    weight_before = last_of(weights);
+    sum_before = last_of(sums);
+  }
+  return sum_row_from(row, x, count,
+                      static_cast<std::uint16_t>(_mm_extract_epi16(weight_before, 0)),
+                      static_cast<std::uint16_t>(_mm_extract_epi16(sum_before, 0)));
+}
+
+#else
+
+std::uint16_t sum_row(std::uint16_t* row, int count) { return sum_row_from(row, 0, count, 0, 0); }
+
+#endif
 
 }  // namespace
 
 void Field::sum() {
-  constexpr int kTogether = 8;
-  std::uint16_t* const first = sums_.data();
-  int y = 0;
-  for (; y + kTogether <= y_.count; y += kTogether) {
-    sum_rows<kTogether>(first + static_cast<std::ptrdiff_t>(y) * stride_, stride_, x_.count);
-  }
-  for (; y < y_.count; ++y) {
-    sum_rows<1>(first + static_cast<std::ptrdiff_t>(y) * stride_, stride_, x_.count);
-  }
-  for (y = 0; y < y_.count; ++y) {
-    std::uint16_t* row = first + static_cast<std::ptrdiff_t>(y) * stride_;
-    const std::uint16_t whole = row[x_.count];
+  for (int y = 0; y < y_.count; ++y) {
+    std::uint16_t* row = sums_.data() + static_cast<std::ptrdiff_t>(y) * stride_;
+    const std::uint16_t whole = sum_row(row, x_.count);
     if (!x_.cyclic) {
-      std::fill(row + x_.count + 1, row + stride_, whole);
+      std::fill(row + x_.count, row + stride_, whole);
       continue;
     }
+    row[x_.count] = whole;
     for (int x = x_.count + 1; x < stride_; ++x) {
       row[x] = static_cast<std::uint16_t>(row[x - x_.count] + whole);
     }

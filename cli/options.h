@@ -22,7 +22,8 @@ struct Named {
 };
 inline constexpr Named<Wrap> kWraps[] = {
     {"uv", Wrap::uv}, {"u", Wrap::u}, {"v", Wrap::v}, {"none", Wrap::none}};
-inline constexpr Named<Method> kMethods[] = {{"modulo", Method::modulo},
+inline constexpr Named<Method> kMethods[] = {{"guided", Method::guided},
+                                             {"modulo", Method::modulo},
                                              {"swg03", Method::swg03},
                                              {"zsgs04", Method::zsgs04},
                                              {"lprm02", Method::lprm02}};

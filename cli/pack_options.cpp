@@ -34,6 +34,13 @@ void add_promise_options(CLI::App& app, PackArguments& a) {
 
 void add_search_options(CLI::App& app, PackArguments& a) {
   PackOptions& options = a.options;
+  add_number(
+      app, "--time", options.time, {0, 1e6, "seconds"},
+      "guided: how long to search; 0: as long as it takes to fill one domain after the other "
+      "until one is too small");
+  add_number(app, "--moves", options.moves, {0, 1e15, "moves"},
+             "guided: search for so many moves of charts instead of a time, so that the result is "
+             "the same on every machine; 0: --time counts");
   add_number(app, "--rotations", options.rotations, {1, 3600, "angles"},
              "Angles each chart is tried at (lprm02 has one of its own)");
   add_choice(app, "--rotation-base", options.rotation_base, kRotationBases,
@@ -52,7 +59,7 @@ void add_search_options(CLI::App& app, PackArguments& a) {
   app.add_flag("--no-inner", a.no_inner, "modulo: leave out the four inner strategies");
   app.add_flag("--all-sides", options.all_sides, "zsgs04: try all four sides for every chart");
   add_number(app, "--seed", options.seed, {0, 4294967295},
-             "Reported; these methods draw no random numbers");
+             "guided: another number, another packing. The other methods draw no random numbers");
 }
 
 void add_output_options(CLI::App& app, PackArguments& a) {
@@ -72,6 +79,10 @@ struct MethodOption {
   std::vector<Method> methods;
 };
 const MethodOption kMethodOptions[] = {
+    {"--time", {Method::guided}},
+    {"--moves", {Method::guided}},
+    {"--rotations", {Method::modulo, Method::swg03, Method::zsgs04, Method::lprm02}},
+    {"--scale-start", {Method::modulo, Method::swg03, Method::zsgs04, Method::lprm02}},
     {"--rotation-base", {Method::modulo, Method::swg03, Method::zsgs04}},
     {"--lambda", {Method::modulo}},
     {"--no-inner", {Method::modulo}},
@@ -163,8 +174,10 @@ void add_pack_options(CLI::App& app, PackArguments& a) {
                  "it is; another one gets faces and UVs")
       ->required()
       ->type_name("FILE");
-  add_choice(app, "--method", a.options.method, kMethods,
-             "modulo (Noell & Stricker 2011, the one that wraps), or an earlier packer");
+  add_choice(
+      app, "--method", a.options.method, kMethods,
+      "guided (the densest), modulo (Noell & Stricker 2011), or an earlier packer: these three "
+      "cannot wrap");
   add_promise_options(app, a);
   add_texcoord(app, a.texcoord);
   add_search_options(app, a);
@@ -175,12 +188,12 @@ void add_pack_options(CLI::App& app, PackArguments& a) {
 Status resolve_pack_options(const CLI::App& app, PackArguments& a) {
   PackOptions& options = a.options;
   if (const Status ok = resolve_size(a); !ok) return ok;
-  const bool can_wrap = options.method == Method::modulo;
+  const bool can_wrap = options.method == Method::modulo || options.method == Method::guided;
   options.wrap = a.wrap.value_or(can_wrap ? Wrap::uv : Wrap::none);
   if (!can_wrap && options.wrap != Wrap::none) {
     return usage(fmt::format("--wrap {}", name_of(kWraps, options.wrap)),
                  fmt::format("{} cannot wrap around the border", name_of(kMethods, options.method)),
-                 "use --method modulo, or --wrap none");
+                 "use --method guided or modulo, or --wrap none");
   }
   options.padding =
       a.padding.value_or(std::max(2.0, std::max(options.width, options.height) / 256.0));

@@ -55,9 +55,10 @@ struct PackOptions {
   double lambda = 1.1;       ///< penalty of outer placements (modulo), 0 to 1e6
   bool inner = true;         ///< modulo: also try the four inner strategies
   bool all_sides = false;    ///< zsgs04: try all four sides for every chart
-  double time = 3;           ///< guided: seconds to search; 0: best fit alone
+  double time = 3;           ///< guided: seconds to search, 0 to 1e6; 0: until it is stuck once
+  std::int64_t moves = 0;    ///< guided: if > 0, search for so many moves of charts instead
   int threads = 0;           ///< 0: as many as the machine has; never changes the result
-  std::uint64_t seed = 0;    ///< reported; the methods here draw no random numbers
+  std::uint64_t seed = 0;    ///< guided: of its random numbers; the others draw none
 
   /// Called now and then from any thread, one call at a time; false ends the search early with
   /// the best packing so far.

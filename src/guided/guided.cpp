@@ -36,6 +36,7 @@ int coarse_side(std::size_t charts) {
 double fine_cell(const PackOptions& options) {
   constexpr int kFinest = 2048;
   const int longest = std::max(options.width, options.height);
+  if (options.grid > 0) return double(longest) / options.grid;
   return std::max(1.0, double(longest) / kFinest);
 }
 
@@ -54,9 +55,13 @@ class Record {
   Record(const PackOptions& options, double area, const Frame& frame)
       : options_(options), area_(area), frame_(frame) {}
 
-  void offer(FineLayout&& layout) {
+  /// Of layouts of one scale the one of the smallest number wins, whichever line comes first.
+  void offer(FineLayout&& layout, std::size_t number) {
     const std::lock_guard lock(mutex_);
-    if (!best_ || layout.layout.scale > best_->layout.scale) best_ = std::move(layout);
+    const double scale = layout.layout.scale, best = best_ ? best_->layout.scale : 0;
+    if (scale < best || (scale == best && number > best_number_)) return;
+    best_ = std::move(layout);
+    best_number_ = number;
   }
   [[nodiscard]] double efficiency() const {
     return best_ ? best_->layout.scale * best_->layout.scale * area_ / frame_.texels() : 0;
@@ -81,6 +86,7 @@ class Record {
   const Frame& frame_;
   std::mutex mutex_;
   std::optional<FineLayout> best_;
+  std::size_t best_number_ = 0;
   Clock::time_point start_ = Clock::now(), last_{};
   std::atomic<bool> stopped_{false};
 };
@@ -89,7 +95,9 @@ class Record {
 struct Line {
   CoarseSearch coarse;
   Random random;
-  double refined = 0;  ///< efficiency of the coarse layout last refined
+  std::size_t number = 0;
+  std::size_t offers = 0;  ///< refined layouts so far
+  double refined = 0;      ///< efficiency of the coarse layout last refined
 };
 
 class Guide {
@@ -101,12 +109,13 @@ class Guide {
     coarse.side = coarse_side(shapes.size());
     coarse.grown = options.padding / 2 + 0.3 * frame.cell.x;
     const Vec2 lengths{frame.width * frame.cell.x, frame.height * frame.cell.y};
-    const int lines = thread_count(options.threads);
+    // Not as many as threads where the result must not depend on them.
+    const int lines = timed() ? thread_count(options.threads) : 2;
     for (int i = 0; i < lines; ++i) {
       const std::uint64_t seed = options.seed * 1000003 + static_cast<std::uint64_t>(i);
       lines_.push_back({CoarseSearch(shapes, lengths, wraps_u(options.wrap), wraps_v(options.wrap),
                                      coarse, seed),
-                        Random(seed ^ 0xf1e2d3c4), 0});
+                        Random(seed ^ 0xf1e2d3c4), static_cast<std::size_t>(i)});
     }
   }
 
@@ -119,24 +128,27 @@ class Guide {
     each_line([&](Line& line) {
       Effort effort = make_effort();
       line.coarse.run(effort, true);
-      improve(line, effort, {});
+      improve(line, effort);
     });
-    constexpr int kEpochs = 8;
-    for (int epoch = 1; options_.time > 0 && epoch <= kEpochs && !record_.stopped(); ++epoch) {
+    if (!timed() && options_.moves == 0) return;
+    for (int epoch = 1; epoch <= kEpochs && !record_.stopped(); ++epoch) {
       share_best();
-      const auto until = at(0.9 * epoch / kEpochs);
       each_line([&](Line& line) {
-        Effort effort = make_effort();
-        effort.until(until);
+        Effort effort = make_effort(), last = make_effort();
+        if (timed()) {
+          effort.until(at(0.9 * epoch / kEpochs));
+          last.until(at(1));
+        } else {
+          effort.moves(options_.moves / (kEpochs * static_cast<std::int64_t>(lines_.size())) + 1);
+        }
         line.coarse.run(effort, false);
-        Effort last = make_effort();
-        last.until(at(1));
-        if (line.coarse.found() && line.coarse.efficiency() > line.refined) improve(line, last, {});
+        if (line.coarse.efficiency() > line.refined) improve(line, last);
       });
     }
   }
 
  private:
+  [[nodiscard]] bool timed() const { return options_.time > 0 && options_.moves == 0; }
   [[nodiscard]] Effort make_effort() {
     return Effort([this] { return record_.poll(); });
   }
@@ -145,11 +157,11 @@ class Guide {
     parallel_for(lines_.size(), thread_count(options_.threads),
                  [&](std::size_t i) { job(lines_[i]); });
   }
-  void improve(Line& line, Effort& effort, const RefineOptions& how) {
+  void improve(Line& line, Effort& effort) {
     if (!line.coarse.found()) return;
     line.refined = line.coarse.efficiency();
-    auto fine = refine(shapes_, frame_, options_, line.coarse.best(), how, effort, line.random);
-    if (fine) record_.offer(std::move(*fine));
+    auto fine = refine(shapes_, frame_, options_, line.coarse.best(), {}, effort, line.random);
+    if (fine) record_.offer(std::move(*fine), line.offers++ * lines_.size() + line.number);
   }
   void share_best() {
     const auto best = std::max_element(
@@ -159,6 +171,8 @@ class Guide {
       if (line.coarse.efficiency() < best->coarse.efficiency()) line.coarse.adopt(best->coarse);
     }
   }
+
+  static constexpr int kEpochs = 8;
 
   std::span<const ChartShape> shapes_;
   const PackOptions& options_;

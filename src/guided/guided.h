@@ -9,6 +9,9 @@
 
 namespace wrapatlas {
 
+/// Every move looks at all charts and at the whole domain: with more of them pack() uses modulo.
+inline constexpr std::size_t kMostGuidedCharts = 200;
+
 /// pack() for Method::guided, its options checked.
 Result<Packing> pack_guided(std::span<const Chart> charts, const PackOptions& options);
 

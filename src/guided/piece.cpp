@@ -52,7 +52,7 @@ Piece make_piece(const ChartRaster& raster, Vec2 centre) {
   piece.offset = raster.offset;
   piece.centre = centre;
   if (raster.width == 0) return piece;
-  const BitLanes& rows = raster.rows.bits;
+  const BitLanes& rows = *raster.unturned;  // rasterize() turns nothing
   std::vector<std::size_t> row_begin;
   for (int y = 0; y < rows.lanes; ++y) {
     row_begin.push_back(piece.runs.size());

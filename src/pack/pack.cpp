@@ -65,7 +65,13 @@ Status check_options(const PackOptions& options) {
   }
   if (options.method != Method::modulo && options.method != Method::guided &&
       options.wrap != Wrap::none) {
-    return usage("only the modulo packer can wrap", "use --wrap none with this method");
+    return usage("this packer cannot wrap", "use --wrap none with this method");
+  }
+  if (options.method == Method::guided && options.search_aspect) {
+    return usage("guided does not search for the best shape", "give a size, or use modulo");
+  }
+  if (!(options.time >= 0 && options.time <= 1e6) || options.moves < 0) {
+    return usage("a search has to have a time from 0 to 1e6 seconds and 0 or more moves", "");
   }
   return Done{};
 }
@@ -94,7 +100,7 @@ PlaceFunction place_function(Method method) {
     case Method::zsgs04:
       return place_zsgs04;
     case Method::modulo:
-    case Method::guided:  // has its own search
+    case Method::guided:  // has its own search; here for charts that are too many for it
       return place_modulo;
   }
   return place_modulo;
@@ -309,7 +315,10 @@ Result<Packing> pack(std::span<const Chart> charts, const PackOptions& options) 
     return Error{ErrorKind::input, "charts", "their total area is zero or not finite",
                  "unwrap the mesh again: its UVs are collapsed"};
   }
-  if (options.method == Method::guided) return pack_guided(charts, options);
+  if (options.method == Method::guided && charts.size() <= kMostGuidedCharts) {
+    Result<Packing> packing = pack_guided(charts, options);
+    if (packing || packing.error().kind != ErrorKind::no_packing) return packing;
+  }
   auto frames = make_frames(options, charts.size());
   if (!frames) return frames.error();
 

@@ -1,0 +1,265 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "guided/best_shift.h"
+#include "guided/cover.h"
+#include "guided/field.h"
+#include "guided/piece.h"
+#include "guided/random.h"
+#include "support/shapes.h"
+#include "support/soup_check.h"
+#include "wrapatlas/pack.h"
+
+namespace wrapatlas {
+namespace {
+
+Piece random_piece(Random& random, int width, int height) {
+  Piece piece;
+  piece.width = width;
+  piece.height = height;
+  for (int y = 0; y < height; ++y) {
+    for (int x = random.below(3); x < width;) {
+      const int end = std::min(width, x + 1 + random.below(6));
+      piece.runs.push_back({y, x, end});
+      piece.cells += end - x;
+      x = end + 1 + random.below(4);
+    }
+  }
+  piece.spread = piece.runs;
+  return piece;
+}
+
+/// Weights cell by cell.
+struct SlowField {
+  Domain domain;
+  std::vector<int> weight;
+
+  explicit SlowField(const Domain& d)
+      : domain(d), weight(static_cast<std::size_t>(d.width * d.height)) {}
+  int& at(int x, int y) {
+    return weight[static_cast<std::size_t>(y % domain.height * domain.width + x % domain.width)];
+  }
+  void add(const Piece& piece, int x, int y, int by) {
+    for (const PieceRun& run : piece.runs) {
+      for (int k = run.begin; k < run.end; ++k) at(x + k, y + run.row) += by;
+    }
+  }
+  int cost(const Piece& piece, int x, int y) {
+    int sum = 0;
+    for (const PieceRun& run : piece.runs) {
+      for (int k = run.begin; k < run.end; ++k) sum += at(x + k, y + run.row);
+    }
+    return std::min<int>(sum, kMostCost);
+  }
+};
+
+TEST(Field, CostsAreThoseOfTheCellsOnATorus) {
+  Random random(1);
+  for (int trial = 0; trial < 60; ++trial) {
+    const Domain domain{5 + random.below(90), 5 + random.below(70), true, true};
+    SlowField slow(domain);
+    Field field;
+    const int reach = 150;
+    field.reset(domain, {0, domain.width, true}, {0, domain.height, true}, reach);
+    for (int i = 0; i < 6; ++i) {
+      const Piece piece = random_piece(random, 1 + random.below(100), 1 + random.below(100));
+      const int x = random.below(domain.width), y = random.below(domain.height);
+      const int weight = 1 + random.below(20);
+      field.add(piece, x, y, weight);
+      slow.add(piece, x, y, weight);
+    }
+    field.sum();
+    const Piece moved = random_piece(random, 1 + random.below(120), 1 + random.below(120));
+    for (int i = 0; i < 20; ++i) {
+      const int x = random.below(domain.width), y = random.below(domain.height);
+      EXPECT_EQ(cost_at(field, moved.spread, x, y), slow.cost(moved, x, y));
+    }
+  }
+}
+
+TEST(Field, APartOfTheDomainHasTheSameCosts) {
+  Random random(2);
+  for (int trial = 0; trial < 60; ++trial) {
+    const bool wraps = trial % 2 == 0;
+    const Domain domain{60 + random.below(50), 60 + random.below(50), wraps, wraps};
+    SlowField slow(domain);
+    const Stretch x{random.below(wraps ? domain.width : 20), 40, false};
+    const Stretch y{random.below(wraps ? domain.height : 20), 35, false};
+    Field field;
+    field.reset(domain, x, y, 0);
+    for (int i = 0; i < 8; ++i) {
+      const Piece piece = random_piece(random, 1 + random.below(50), 1 + random.below(50));
+      const int px = random.below(wraps ? domain.width : domain.width - piece.width + 1);
+      const int py = random.below(wraps ? domain.height : domain.height - piece.height + 1);
+      field.add(piece, px, py, 3);
+      slow.add(piece, px, py, 3);
+    }
+    field.sum();
+    const Piece moved = random_piece(random, 1 + random.below(30), 1 + random.below(30));
+    for (int dx = 0; dx + moved.width <= x.count; ++dx) {
+      for (int dy = 0; dy + moved.height <= y.count; ++dy) {
+        ASSERT_EQ(cost_at(field, moved.spread, dx, dy),
+                  slow.cost(moved, x.origin + dx, y.origin + dy));
+      }
+    }
+  }
+}
+
+TEST(BestShift, EveryVersionFindsTheFirstLeastCost) {
+  Random random(3);
+  for (int trial = 0; trial < 80; ++trial) {
+    const Domain domain{20 + random.below(90), 20 + random.below(40), true, true};
+    SlowField slow(domain);
+    Field field;
+    field.reset(domain, {0, domain.width, true}, {0, domain.height, true}, 40);
+    for (int i = 0; i < 12; ++i) {
+      const Piece piece = random_piece(random, 1 + random.below(30), 1 + random.below(30));
+      const int x = random.below(domain.width), y = random.below(domain.height);
+      field.add(piece, x, y, 8);
+      slow.add(piece, x, y, 8);
+    }
+    field.sum();
+    const Piece moved = random_piece(random, 1 + random.below(20), 1 + random.below(20));
+    ShiftRange range;
+    range.x_begin = random.below(5);
+    range.x_end = range.x_begin + 1 + random.below(domain.width - range.x_begin);
+    range.y_begin = random.below(5);
+    range.y_end = range.y_begin + 1 + random.below(domain.height - range.y_begin);
+    range.y_start = range.y_begin + random.below(range.y_end - range.y_begin);
+    const Shift limit{static_cast<std::uint16_t>(1 + random.below(2000)), -1, -1};
+    Shift expected = limit;
+    for (int i = 0, y = range.y_start; i < range.y_end - range.y_begin; ++i, ++y) {
+      if (y == range.y_end) y = range.y_begin;
+      for (int x = range.x_begin; x < range.x_end; ++x) {
+        const int cost = slow.cost(moved, x, y);
+        if (cost < expected.cost) expected = {static_cast<std::uint16_t>(cost), x, y};
+      }
+    }
+    for (const BestShiftKernel kernel :
+         {best_shift_scalar(), best_shift_avx2(), best_shift_avx512()}) {
+      if (kernel == nullptr) continue;
+      Shift best = limit;
+      kernel(field, moved.spread, range, best);
+      EXPECT_EQ(best.cost, expected.cost);
+      EXPECT_EQ(best.x, expected.x);
+      EXPECT_EQ(best.y, expected.y);
+    }
+  }
+}
+
+TEST(Cover, SharedCellsAreCounted) {
+  Random random(4);
+  for (int trial = 0; trial < 100; ++trial) {
+    const Domain domain{10 + random.below(150), 10 + random.below(60), true, true};
+    SlowField both(domain);
+    Cover covers[2];
+    for (Cover& cover : covers) {
+      const Piece piece =
+          random_piece(random, 1 + random.below(domain.width), 1 + random.below(domain.height));
+      const int x = random.below(domain.width), y = random.below(domain.height);
+      cover.set(domain, piece, x, y);
+      both.add(piece, x, y, 1);
+    }
+    const auto expected = std::count(both.weight.begin(), both.weight.end(), 2);
+    EXPECT_EQ(Cover::shared(covers[0], covers[1]), expected);
+    EXPECT_EQ(Cover::shared(covers[1], covers[0]), expected);
+  }
+}
+
+TEST(Piece, AdmittedIfNoCellIsCoveredTwice) {
+  Random random(5);
+  int admitted = 0;
+  for (int trial = 0; trial < 300; ++trial) {
+    const Domain domain{8 + random.below(30), 8 + random.below(30), random.below(2) == 0,
+                        random.below(2) == 0};
+    Piece piece = random_piece(random, 1 + random.below(40), 1 + random.below(40));
+    if (trial % 2 == 0) {  // a thin diagonal, which may wind around without meeting itself
+      piece.runs.clear();
+      piece.width = piece.height;
+      for (int y = 0; y < piece.height; ++y) piece.runs.push_back({y, y, y + 1});
+    }
+    bool expected = (domain.wraps_x || piece.width <= domain.width) &&
+                    (domain.wraps_y || piece.height <= domain.height);
+    SlowField cells(domain);
+    cells.add(piece, 0, 0, 1);
+    if (*std::max_element(cells.weight.begin(), cells.weight.end()) > 1) expected = false;
+    EXPECT_EQ(admits(domain, piece), expected);
+    admitted += expected ? 1 : 0;
+  }
+  EXPECT_GT(admitted, 50);
+  EXPECT_LT(admitted, 250);
+}
+
+PackOptions guided_options() {
+  PackOptions options;
+  options.method = Method::guided;
+  options.width = options.height = 256;
+  options.time = 0;
+  return options;
+}
+
+TEST(Guided, MovesGiveTheSameBitsForAnyNumberOfThreads) {
+  const std::vector<Chart> charts = test::mixed_charts(7, 10);
+  PackOptions options = guided_options();
+  options.moves = 400;
+  options.threads = 1;
+  const auto one = pack(charts, options);
+  options.threads = 3;
+  const auto three = pack(charts, options);
+  ASSERT_TRUE(one && three);
+  EXPECT_EQ(one->scale, three->scale);
+  for (std::size_t i = 0; i < charts.size(); ++i) {
+    EXPECT_EQ(one->placements[i].angle, three->placements[i].angle);
+    EXPECT_EQ(one->placements[i].translation, three->placements[i].translation);
+  }
+}
+
+TEST(Guided, IsDenserThanModulo) {
+  double guided = 0, modulo = 0;
+  for (std::uint64_t seed = 30; seed < 34; ++seed) {
+    const std::vector<Chart> charts = test::mixed_charts(seed, 12);
+    PackOptions options = guided_options();
+    guided += pack(charts, options)->efficiency;
+    options.method = Method::modulo;
+    modulo += pack(charts, options)->efficiency;
+  }
+  EXPECT_GT(guided, modulo * 1.1);
+}
+
+TEST(Guided, TooManyChartsArePackedByModulo) {
+  const std::vector<Chart> charts(201, test::mixed_charts(1, 1)[0]);
+  PackOptions options = guided_options();
+  options.width = options.height = 1024;
+  options.padding = 0;
+  const auto packing = pack(charts, options);
+  ASSERT_TRUE(packing) << packing.error().message();
+  EXPECT_EQ(test::check_packing(charts, *packing, options), "");
+}
+
+TEST(Guided, AspectSearchIsRefused) {
+  PackOptions options = guided_options();
+  options.search_aspect = true;
+  const auto packing = pack(test::mixed_charts(1, 3), options);
+  ASSERT_FALSE(packing);
+  EXPECT_EQ(packing.error().kind, ErrorKind::usage);
+}
+
+TEST(Guided, StopsWithTheBestSoFar) {
+  PackOptions options = guided_options();
+  options.time = 1000;
+  double seen = 0;
+  options.progress = [&seen](const Progress& progress) {
+    seen = progress.best_efficiency;
+    return seen == 0;
+  };
+  const auto packing = pack(test::mixed_charts(3, 8), options);
+  ASSERT_TRUE(packing) << packing.error().message();
+  EXPECT_TRUE(packing->interrupted);
+  EXPECT_GE(packing->efficiency, seen);
+}
+
+}  // namespace
+}  // namespace wrapatlas

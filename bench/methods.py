@@ -29,7 +29,6 @@ METHODS = [
     Method("modulo, no wrap", "modulo", "none"),
     Method("modulo, wrap uv", "modulo", "uv"),
 ]
-OURS = METHODS[-1]
 Row = collections.namedtuple("Row", "group file method charts efficiency pack total")
 
 
@@ -58,10 +57,16 @@ def arguments():
     parser.add_argument("--padding", default="2")
     parser.add_argument("--threads", default="1")
     parser.add_argument("--csv", type=pathlib.Path, help="also write every number to this file")
+    parser.add_argument("--guided", metavar="SECONDS",
+                        help="also measure guided with this --time, without wrap and with")
     parser.add_argument("--extra", default="", help="further arguments of wrapatlas pack")
     parser.add_argument("--wrapatlas", default=os.environ.get(
         "WRAPATLAS", str(REPOSITORY / "build/release/cli/wrapatlas")), help="the command to run")
     options = parser.parse_args()
+    options.methods = list(METHODS)
+    if options.guided is not None:
+        options.methods += [Method(f"guided {options.guided} s, {name}", "guided", wrap)
+                            for name, wrap in (("no wrap", "none"), ("wrap uv", "uv"))]
     if options.files:
         options.inputs = [(path.resolve().parent.name, path) for path in options.files]
     else:
@@ -95,6 +100,12 @@ def run(command, what):
     return done.stdout
 
 
+def own_options(method, options):
+    if method.method == "guided":
+        return ["--time", options.guided]
+    return shlex.split(options.extra)
+
+
 def measure(group, path, method, options, folder):
     """Packs one file by one method, checks the result, and gives the row of numbers."""
     what = f"{path}: {method.name}"
@@ -103,7 +114,7 @@ def measure(group, path, method, options, folder):
     report = json.loads(run(
         [options.wrapatlas, "pack", str(path), "-o", packed, "--method", method.method,
          "--wrap", method.wrap, "--resolution", options.resolution, "--padding", options.padding,
-         "--threads", options.threads, "--json", "-", *shlex.split(options.extra)], what))
+         "--threads", options.threads, "--json", "-", *own_options(method, options)], what))
     # The atlas may have another shape than asked for, where its aspect was searched.
     run([options.wrapatlas, "check", packed, "--ref", str(path),
          "--resolution", f"{report['width']}x{report['height']}", "--padding", options.padding,
@@ -114,10 +125,10 @@ def measure(group, path, method, options, folder):
 
 
 def measure_all(options):
-    rows, jobs = [], len(options.inputs) * len(METHODS)
+    rows, jobs = [], len(options.inputs) * len(options.methods)
     with tempfile.TemporaryDirectory(prefix="wrapatlas_methods") as folder:
         for group, path in options.inputs:
-            for method in METHODS:
+            for method in options.methods:
                 print(f"[{len(rows) + 1}/{jobs}] {path} {method.name}", file=sys.stderr)
                 rows.append(measure(group, path, method, options, folder))
     return rows
@@ -134,12 +145,12 @@ def is_best(row, of_file):
     return row.efficiency >= max(other.efficiency for other in of_file.values()) - TIE
 
 
-def print_group(name, rows):
+def print_group(name, rows, methods):
     files = by_file(rows)
     print(f"\n### {name}: {len(files)} {'file' if len(files) == 1 else 'files'}\n")
     print("| method | mean | min | max | best on | pack, median s | total, median s |")
     print("|---|---:|---:|---:|---:|---:|---:|")
-    for method in METHODS:
+    for method in methods:
         mine = [row for row in rows if row.method == method.name]
         efficiency = [row.efficiency for row in mine]
         best = sum(is_best(row, files[row.file]) for row in mine)
@@ -149,17 +160,18 @@ def print_group(name, rows):
               f"| {statistics.median(row.total for row in mine):.3f} |")
 
 
-def print_defeats(rows):
+def print_defeats(rows, methods):
+    ours = methods[-1]
     lost = [(file, of_file) for file, of_file in by_file(rows).items()
-            if not is_best(of_file[OURS.name], of_file)]
-    print(f"\n### Files on which {OURS.name} is not the best: {len(lost)}\n")
+            if not is_best(of_file[ours.name], of_file)]
+    print(f"\n### Files on which {ours.name} is not the best: {len(lost)}\n")
     if not lost:
         return
-    print("| file | charts | " + " | ".join(method.name for method in METHODS) + " |")
-    print("|---|---:|" + "---:|" * len(METHODS))
+    print("| file | charts | " + " | ".join(method.name for method in methods) + " |")
+    print("|---|---:|" + "---:|" * len(methods))
     for file, of_file in lost:
-        numbers = [f"{of_file[method.name].efficiency:.4f}" for method in METHODS]
-        print(f"| {file} | {of_file[OURS.name].charts} | " + " | ".join(numbers) + " |")
+        numbers = [f"{of_file[method.name].efficiency:.4f}" for method in methods]
+        print(f"| {file} | {of_file[ours.name].charts} | " + " | ".join(numbers) + " |")
 
 
 def main():
@@ -179,10 +191,10 @@ def main():
           "files; of equals, each counts.\nEvery packing passed `wrapatlas check`.")
     groups = list(dict.fromkeys(row.group for row in rows))
     for group in groups:
-        print_group(group, [row for row in rows if row.group == group])
+        print_group(group, [row for row in rows if row.group == group], options.methods)
     if len(groups) > 1:
-        print_group("all", rows)
-    print_defeats(rows)
+        print_group("all", rows, options.methods)
+    print_defeats(rows, options.methods)
     if options.csv:
         with open(options.csv, "w", newline="") as file:
             writer = csv.writer(file)

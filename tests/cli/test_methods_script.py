@@ -75,6 +75,13 @@ class MethodsScript(unittest.TestCase):
         self.assertIn(f"is not the best: {len(lost)}", sections[3])
         self.assertEqual([row[0] for row in table_rows(sections[3])[2:]], lost)
 
+    def test_guided_is_measured_on_request(self):
+        done = self.run_script("--resolution", "64", "--guided", "0")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        table = table_rows(done.stdout.split("\n### ")[1])[2:]
+        self.assertEqual([row[0] for row in table],
+                         [*METHODS, "guided 0 s, no wrap", "guided 0 s, wrap uv"])
+
     def test_a_failed_check_ends_it_and_is_named(self):
         fake = pathlib.Path(self.folder.name) / "wrapatlas"
         fake.write_text('#!/bin/sh\n'

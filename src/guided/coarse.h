@@ -2,7 +2,7 @@
 // around them, a cell at a time.
 #pragma once
 
-#include <optional>
+#include <memory>
 #include <span>
 #include <vector>
 

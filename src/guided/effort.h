@@ -21,7 +21,6 @@ class Effort {
 
   /// One chart was put somewhere anew.
   void count_move() { ++moves_; }
-  [[nodiscard]] std::int64_t moves() const { return moves_; }
   [[nodiscard]] bool stopped() const { return stop_ && stop_(); }
   [[nodiscard]] bool spent() const {
     return moves_ >= limit_ || Clock::now() >= deadline_ || stopped();

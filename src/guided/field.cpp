@@ -73,7 +73,7 @@ std::uint16_t sum_row_from(std::uint16_t* row, int x, int count, std::uint16_t w
   for (; x < count; ++x) {
     weight = static_cast<std::uint16_t>(weight + row[x]);
     row[x] = sum;
-    sum = static_cast<std::uint16_t>(sum + weight);
+    sum = static_cast<std::uint16_t>(sum + std::min<int>(weight, kLargestWeight));
   }
   return sum;
 }
@@ -93,13 +93,15 @@ __m128i last_of(__m128i numbers) {
 }
 
 std::uint16_t sum_row(std::uint16_t* row, int count) {
+  const __m128i largest = _mm_set1_epi16(kLargestWeight);
   __m128i weight_before = _mm_setzero_si128(), sum_before = weight_before;
   int x = 0;
   for (; x + 8 <= count; x += 8) {
     auto* cells = reinterpret_cast<__m128i*>(row + x);
     const __m128i weights = _mm_add_epi16(running_sums(_mm_loadu_si128(cells)), weight_before);
-    const __m128i sums = _mm_add_epi16(running_sums(weights), sum_before);
-    _mm_storeu_si128(cells, _mm_sub_epi16(sums, weights));
+    const __m128i bounded = _mm_min_epi16(weights, largest);
+    const __m128i sums = _mm_add_epi16(running_sums(bounded), sum_before);
+    _mm_storeu_si128(cells, _mm_sub_epi16(sums, bounded));
     weight_before = last_of(weights);
     sum_before = last_of(sums);
   }

@@ -19,7 +19,7 @@ struct Stretch {
 };
 
 /// Rows of prefix sums modulo 2^16: the weight of cells [a, b) of row y is
-/// uint16(row(y)[b] - row(y)[a]), exact while it is below 2^16, which kLargestWeight sees to.
+/// uint16(rows()[y][b] - rows()[y][a]), exact while it is below 2^16, which kLargestWeight sees to.
 class Field {
  public:
   /// Empties the field and lays it over a part of the domain. Cyclic axes are followed around for
@@ -27,11 +27,9 @@ class Field {
   void reset(const Domain& domain, Stretch x, Stretch y, int reach);
   /// Adds `weight` to the cells of a piece whose cell (0,0) lies at (x, y) of the domain.
   void add(const Piece& piece, int x, int y, int weight);
-  /// Sums up what was added. After this row() may be used.
+  /// Sums up what was added. After this rows() may be used.
   void sum();
 
-  [[nodiscard]] const Stretch& x() const { return x_; }
-  [[nodiscard]] const Stretch& y() const { return y_; }
   /// Row pointers, for rows counted from the stretch's origin, around where cyclic.
   [[nodiscard]] const std::uint16_t* const* rows() const { return rows_.data(); }
 
@@ -46,8 +44,8 @@ class Field {
   std::vector<const std::uint16_t*> rows_;
 };
 
-/// Cells that several pieces share have the sum of their weights. kLongestRun of them stay below
-/// 2^16 where no cell weighs more.
+/// Cells that several pieces share have the sum of their weights, but no more than this, so that
+/// kLongestRun of them stay below 2^16. What is added to one cell has to stay below 2^15.
 inline constexpr int kLargestWeight = 511;
 
 }  // namespace wrapatlas

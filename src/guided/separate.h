@@ -22,12 +22,10 @@ struct Place {
 };
 
 struct SeparateOptions {
-  int stall_rounds = 40;  ///< rounds without less overlap after which it gives up
-  int window = 0;         ///< cells that a chart may move at a time; 0: anywhere
-  /// Share of all angles looked at in a move; with a window, the largest step of the angle's
-  /// number.
-  double angle_share = 0.3;
-  int angle_step = 1;
+  int stall_rounds = 40;     ///< rounds without less overlap after which it gives up
+  int window = 0;            ///< cells that a chart may move at a time; 0: anywhere
+  double angle_share = 0.3;  ///< without a window: share of all angles looked at in a move
+  int angle_step = 1;        ///< with a window: largest change of the angle's number in a move
   Effort* effort = nullptr;  ///< counts the moves and says when it is enough
 };
 
@@ -37,8 +35,6 @@ class Separator {
 
   /// Moves charts until none overlap. Otherwise false, with the places of least overlap met.
   bool run(std::vector<Place>& places, const SeparateOptions& options);
-
-  [[nodiscard]] std::int64_t least_overlap() const { return least_; }
 
  private:
   void take(const std::vector<Place>& places);

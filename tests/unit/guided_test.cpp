@@ -50,7 +50,9 @@ struct SlowField {
   int cost(const Piece& piece, int x, int y) {
     int sum = 0;
     for (const PieceRun& run : piece.runs) {
-      for (int k = run.begin; k < run.end; ++k) sum += at(x + k, y + run.row);
+      for (int k = run.begin; k < run.end; ++k) {
+        sum += std::min(at(x + k, y + run.row), kLargestWeight);
+      }
     }
     return std::min<int>(sum, kMostCost);
   }
@@ -76,6 +78,27 @@ TEST(Field, CostsAreThoseOfTheCellsOnATorus) {
     for (int i = 0; i < 20; ++i) {
       const int x = random.below(domain.width), y = random.below(domain.height);
       EXPECT_EQ(cost_at(field, moved.spread, x, y), slow.cost(moved, x, y));
+    }
+  }
+}
+
+TEST(Field, ManyHeavyLayersDoNotOverflow) {
+  Piece bar;
+  bar.width = kLongestRun;
+  bar.height = 1;
+  bar.runs = bar.spread = {{0, 0, kLongestRun}};
+  const Domain domain{200, 3, true, true};
+  for (int layers = 1; layers <= 200; layers += 7) {
+    SlowField slow(domain);
+    Field field;
+    field.reset(domain, {0, domain.width, true}, {0, domain.height, true}, kLongestRun);
+    for (int i = 0; i < layers; ++i) {
+      field.add(bar, 10, 1, 120);
+      slow.add(bar, 10, 1, 120);
+    }
+    field.sum();
+    for (int x = 0; x < domain.width; x += 9) {
+      EXPECT_EQ(cost_at(field, bar.spread, x, 1), slow.cost(bar, x, 1)) << layers << " layers";
     }
   }
 }

@@ -3,8 +3,6 @@
 
 #include "guided/guided.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -183,25 +181,17 @@ class Guide {
 
 }  // namespace
 
-Result<Packing> pack_guided(std::span<const Chart> charts, const PackOptions& options) {
+std::optional<Packing> pack_guided(std::span<const Chart> charts, const PackOptions& options) {
   const auto start = Clock::now();
   auto frame = make_frame(options.width, options.height, fine_cell(options), options);
-  if (!frame) return frame.error();
+  if (!frame) return {};
   const std::vector<ChartShape> shapes = make_shapes(charts);
   double area = 0;
   for (const ChartShape& shape : shapes) area += shape.area;
   Record record(options, area, *frame);
   Guide guide(shapes, options, *frame, record);
   guide.run();
-  if (!record.best()) {
-    if (record.stopped()) {
-      return Error{ErrorKind::interrupted, "", "stopped before a packing was found", ""};
-    }
-    return Error{ErrorKind::no_packing, "",
-                 fmt::format("no scale was found at which {} charts fit {} x {} texels",
-                             charts.size(), options.width, options.height),
-                 "raise --resolution, or lower --padding and --margin"};
-  }
+  if (!record.best()) return {};
   Packing packing;
   packing.width = frame->texture_width;
   packing.height = frame->texture_height;

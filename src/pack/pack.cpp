@@ -316,8 +316,7 @@ Result<Packing> pack(std::span<const Chart> charts, const PackOptions& options) 
                  "unwrap the mesh again: its UVs are collapsed"};
   }
   if (options.method == Method::guided && charts.size() <= kMostGuidedCharts) {
-    Result<Packing> packing = pack_guided(charts, options);
-    if (packing || packing.error().kind != ErrorKind::no_packing) return packing;
+    if (std::optional<Packing> packing = pack_guided(charts, options)) return *std::move(packing);
   }
   auto frames = make_frames(options, charts.size());
   if (!frames) return frames.error();

@@ -22,9 +22,9 @@ struct IoBenchOptions {
   std::string keep;
 };
 
-int bench_pack(const ChartOptions& charts, const PackBenchOptions& options);
-int bench_raster(const ChartOptions& charts);
-int bench_slide(const ChartOptions& charts);
+int bench_pack(const ChartOptions& charts, const PackBenchOptions& bench);
+int bench_raster(const ChartOptions& options);
+int bench_slide(const ChartOptions& options);
 int bench_io(const IoBenchOptions& options);
 int bench_mesh();
 

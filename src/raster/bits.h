@@ -40,7 +40,8 @@ struct BitLanes {
 inline void set_span(std::uint64_t* lane, int begin, int end) {
   const int first = begin / kWordBits, last = (end - 1) / kWordBits;
   const std::uint64_t head = ~std::uint64_t{0} << (begin % kWordBits);
-  const std::uint64_t tail = ~std::uint64_t{0} >> (kWordBits - 1 - (end - 1) % kWordBits);
+  const std::uint64_t tail =
+      ~std::uint64_t{0} >> (kWordBits - 1 - static_cast<unsigned>(end - 1) % kWordBits);
   if (first == last) {
     lane[first] |= head & tail;
     return;

@@ -40,16 +40,24 @@ void sum_up(Silhouette& view, std::int64_t cells) {
 }
 
 /// Calls visit(position) for the pending positions that are set in this lane; they are then no
-/// longer pending.
+/// longer pending. False if nothing is pending any more.
 template <typename Visit>
-void visit_pending(const std::uint64_t* lane, std::vector<std::uint64_t>& pending, Visit visit) {
+bool visit_pending(const std::uint64_t* lane, std::vector<std::uint64_t>& pending, Visit visit) {
+  std::uint64_t left = 0;
   for (std::size_t word = 0; word < pending.size(); ++word) {
     std::uint64_t met = lane[word] & pending[word];
     pending[word] &= ~met;
+    left |= pending[word];
     for (; met != 0; met &= met - 1) {
       visit(word * kWordBits + static_cast<std::size_t>(std::countr_zero(met)));
     }
   }
+  return left != 0;
+}
+
+void all_pending(const BitLanes& lanes, std::vector<std::uint64_t>& pending) {
+  pending.assign(static_cast<std::size_t>(lanes.words), ~std::uint64_t{0});
+  pending.back() >>= lanes.words * kWordBits - lanes.length;
 }
 
 }  // namespace
@@ -70,16 +78,19 @@ Silhouette lane_silhouette(const BitLanes& cells_by_row, std::int64_t cells) {
 Silhouette cross_silhouette(const BitLanes& cells_by_row, std::int64_t cells) {
   Silhouette view = empty_silhouette(cells_by_row.length, cells_by_row.lanes);
   thread_local std::vector<std::uint64_t> pending;
-  const auto words = static_cast<std::size_t>(cells_by_row.words);
-  pending.assign(words, ~std::uint64_t{0});
+  all_pending(cells_by_row, pending);
   for (int y = 0; y < cells_by_row.lanes; ++y) {
-    visit_pending(cells_by_row.lane(y), pending,
-                  [&](std::size_t x) { view.first()[x] = static_cast<std::int16_t>(y); });
+    const bool more = visit_pending(cells_by_row.lane(y), pending, [&](std::size_t x) {
+      view.first()[x] = static_cast<std::int16_t>(y);
+    });
+    if (!more) break;
   }
-  pending.assign(words, ~std::uint64_t{0});
+  all_pending(cells_by_row, pending);
   for (int y = cells_by_row.lanes - 1; y >= 0; --y) {
-    visit_pending(cells_by_row.lane(y), pending,
-                  [&](std::size_t x) { view.last()[x] = static_cast<std::int16_t>(y); });
+    const bool more = visit_pending(cells_by_row.lane(y), pending, [&](std::size_t x) {
+      view.last()[x] = static_cast<std::int16_t>(y);
+    });
+    if (!more) break;
   }
   sum_up(view, cells);
   return view;

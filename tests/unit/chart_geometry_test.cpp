@@ -297,7 +297,8 @@ Chart slanted_strips(std::uint32_t count, double shift) {
   std::vector<Vec2> points;
   Triangles triangles;
   for (std::uint32_t i = 0; i < 2 * count; ++i) {
-    const double x = 0.001 * (i / 2), y = i % 2 == 0 ? 0 : shift;
+    const std::uint32_t pair = i / 2;
+    const double x = 0.001 * pair, y = i % 2 == 0 ? 0 : shift;
     const auto first = static_cast<std::uint32_t>(points.size());
     for (const Vec2 p : {Vec2{x, y}, {x + 0.0008, y}, {x + 0.0008, y + 10}, {x, y + 10}}) {
       points.push_back(p.x * across + p.y * along);

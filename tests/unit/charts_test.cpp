@@ -167,7 +167,8 @@ TEST(BuildCharts, HundredsOfChartsInFaceOrder) {
   std::shuffle(order.begin(), order.end(), random);
   MeshBuilder b;
   for (const std::uint32_t i : order) {
-    const double x = 3.0 * (i / 2 % 20), y = 3.0 * (i / 40);
+    const std::uint32_t column = i / 2 % 20, row = i / 40;
+    const double x = 3.0 * column, y = 3.0 * row;
     if (i % 2 == 0) b.flat_face({{x, y}, {x + 1, y}, {x + 1, y + 1}});
     if (i % 2 == 1) b.flat_face({{x, y}, {x + 1, y + 1}, {x, y + 1}});
   }

@@ -39,7 +39,7 @@ Chart rectangle(double width, double height) {
   return outline_chart({{{0, 0}, {width, 0}, {width, height}, {0, height}}});
 }
 
-Packing packing_at(int width, int height, Wrap wrap, std::vector<Vec2> places) {
+Packing packing_at(int width, int height, Wrap wrap, const std::vector<Vec2>& places) {
   Packing packing;
   packing.width = width;
   packing.height = height;
@@ -312,7 +312,8 @@ TEST(Coverage, AgreesWithTheWindingNumberOfEachSample) {
     for (int y = 2; y < 11; ++y) {
       for (int x = 1; x < 9; ++x) {
         for (int bit = 0; bit < 64; ++bit) {
-          const Vec2 sample{x + (bit % 8 + 0.5) / 8, y + (bit / 8 + 0.5) / 8};
+          const int column = bit % 8, row = bit / 8;
+          const Vec2 sample{x + (column + 0.5) / 8, y + (row + 0.5) / 8};
           ASSERT_EQ((mask.bits(x, y) >> bit & 1) != 0, winding_of(segments, sample) != 0);
         }
       }

@@ -99,7 +99,8 @@ Mesh mesh_of(const std::vector<Corners>& soup, Vec2 size) {
   for (std::size_t i = 0; i < soup.size(); ++i) {
     for (const Vec2 p : soup[i]) {
       const auto number = static_cast<std::uint32_t>(mesh.positions.size());
-      mesh.positions.push_back({p.x, p.y, static_cast<double>(i / 2)});
+      const std::size_t layer = i / 2;
+      mesh.positions.push_back({p.x, p.y, static_cast<double>(layer)});
       mesh.texcoords.push_back({p.x / size.x, p.y / size.y});
       mesh.corner_position.push_back(number);
       mesh.corner_texcoord.push_back(number);

@@ -37,7 +37,7 @@ TEST(ValidateReference, MirroredChart) {
 
 TEST(ValidateReference, TipThatJustCrossesTheBorder) {
   const double e = 1e-4;  // texels: an area below the rounding of positions
-  const auto in_space = [](std::vector<Vec2> points) {
+  const auto in_space = [](const std::vector<Vec2>& points) {
     std::vector<Vec3> positions;
     for (const Vec2 p : points) positions.push_back({p.x / 64, p.y / 64, 0});
     return positions;

@@ -74,7 +74,7 @@ std::string percent(double part, double whole) {
 
 int print_table(const char* title, const std::vector<ChartFile>& files, PackOptions options,
                 int runs) {
-  const bool aspects = options.search_aspect;
+  const bool aspects = options.aspect != Aspect::fixed;
   fmt::print("\n{}, {}: median of {} {} a file, {} {}\n", title,
              aspects ? "31 aspect ratios" : "square, one scale search", runs,
              runs == 1 ? "run" : "runs", options.threads,
@@ -131,7 +131,7 @@ int bench_pack(const ChartOptions& charts, const PackBenchOptions& bench) {
     failures += print_table(title, files, options, charts.runs);
     if (bench.aspect_runs == 0) continue;
     options.threads = bench.aspect_threads;
-    options.search_aspect = true;
+    options.aspect = Aspect::search;
     failures += print_table(title, files, options, bench.aspect_runs);
   }
   return failures == 0 ? 0 : 1;

@@ -14,8 +14,9 @@ void add_promise_options(CLI::App& app, PackArguments& a) {
   add_resolution(app, a.resolution);
   app.add_option("--aspect", a.aspect,
                  "Shape of the atlas at the area of --resolution N; search: the best of 31 ratios "
-                 "from 1:8 to 8:1. Default: as --resolution says")
-      ->type_name("square|W:H|search");
+                 "from 1:8 to 8:1; pow2: the best whose sides are powers of two. Default: as "
+                 "--resolution says")
+      ->type_name("square|W:H|search|pow2");
   add_choice(app, "--wrap", a.wrap, kWraps,
              "Axes on which charts may wrap around. Default: uv; none for the earlier packers");
   add_choice(app, "--export", a.export_mode, kExports,
@@ -127,7 +128,7 @@ Result<double> parse_ratio(const std::string& aspect) {
                          CLI::detail::lexical_cast(aspect.substr(colon + 1), up);
     if (!numbers || !(across > 0 && up > 0) || across / up > 1024 || up / across > 1024) {
       return usage("--aspect " + aspect, "not an aspect ratio",
-                   "give square, search or W:H, e.g. 2:1, at most 1024:1");
+                   "give square, search, pow2 or W:H, e.g. 2:1, at most 1024:1");
     }
   }
   return across / up;
@@ -144,8 +145,8 @@ Status resolve_size(PackArguments& a) {
     return usage("--aspect " + a.aspect, "--resolution WxH already gives the shape",
                  "leave out --aspect, or give --resolution N");
   }
-  if (a.aspect == "search") {
-    options.search_aspect = true;
+  if (a.aspect == "search" || a.aspect == "pow2") {
+    options.aspect = a.aspect == "search" ? Aspect::search : Aspect::pow2;
     return Done{};
   }
   const auto ratio = parse_ratio(a.aspect);

@@ -32,6 +32,13 @@ enum class RotationBase {
   box,    ///< from the sides of its smallest enclosing rectangle
 };
 
+/// The shape of the atlas, at the area of width * height.
+enum class Aspect {
+  fixed,   ///< width x height
+  search,  ///< the best of the paper's 31 ratios from 1:8 to 8:1
+  pow2,    ///< the best of those whose sides are powers of two, from 1:16 to 16:1
+};
+
 /// How far a packing has come; passed to PackOptions::progress.
 struct Progress {
   double fraction = 0;         ///< of the work, an estimate in [0, 1]
@@ -40,11 +47,11 @@ struct Progress {
 
 struct PackOptions {
   Method method = Method::modulo;
-  Wrap wrap = Wrap::uv;        ///< the baselines know `none` only
-  int width = 1024;            ///< texels of the final texture; 1 to 65536
-  int height = 1024;           ///< the same
-  bool search_aspect = false;  ///< try the paper's 31 ratios of the area width * height
-  double padding = 2;          ///< texels between charts, Euclidean; 0 to 4096
+  Wrap wrap = Wrap::uv;  ///< the baselines know `none` only
+  int width = 1024;      ///< texels of the final texture; 1 to 65536
+  int height = 1024;     ///< the same
+  Aspect aspect = Aspect::fixed;
+  double padding = 2;  ///< texels between charts, Euclidean; 0 to 4096
   double margin = -1;  ///< texels to a side that does not wrap; to 65536; < 0: half the padding
   int block = 1;       ///< 1 to 64: no two charts share a block of this many texels a side
   int rotations = 16;  ///< 1 to 3600: angles a chart is tried at, uniform over the circle

@@ -1,7 +1,6 @@
 // The guided packer: see docs/algorithms/guided.md.
 #pragma once
 
-#include <optional>
 #include <span>
 
 #include "wrapatlas/charts.h"
@@ -9,10 +8,12 @@
 
 namespace wrapatlas {
 
-/// Every move looks at all charts and at the whole domain: with more of them pack() uses modulo.
-inline constexpr std::size_t kMostGuidedCharts = 200;
+/// Another way to pack, for a first packing to be better than. `area`: of all charts.
+using FirstPacker = Result<Packing> (*)(std::span<const Chart> charts, const PackOptions& options,
+                                        double area);
 
-/// pack() for Method::guided, its options checked. Nothing if none was found.
-std::optional<Packing> pack_guided(std::span<const Chart> charts, const PackOptions& options);
+/// pack() for Method::guided, its options and charts checked.
+Result<Packing> pack_guided(std::span<const Chart> charts, const PackOptions& options,
+                            FirstPacker first);
 
 }  // namespace wrapatlas

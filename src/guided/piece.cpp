@@ -19,7 +19,8 @@ std::vector<int> spread_order(int count) {
   return order;
 }
 
-/// Moves long runs that lie far apart to the front.
+}  // namespace
+
 void lead_with_telling_runs(std::vector<PieceRun>& runs, int height) {
   constexpr std::size_t kLead = 12;
   std::vector<int> distance(runs.size(), std::max(1, height / 3));
@@ -41,7 +42,15 @@ void lead_with_telling_runs(std::vector<PieceRun>& runs, int height) {
   }
 }
 
-}  // namespace
+std::vector<PieceRun> runs_of(const BitLanes& rows) {
+  std::vector<PieceRun> runs;
+  for (int y = 0; y < rows.lanes; ++y) {
+    for_each_run(rows.lane(y), rows.length, [&](int begin, int end) {
+      runs.push_back({y, begin, end});
+    });
+  }
+  return runs;
+}
 
 Piece make_piece(const ChartRaster& raster, Vec2 centre) {
   Piece piece;
@@ -53,14 +62,14 @@ Piece make_piece(const ChartRaster& raster, Vec2 centre) {
   piece.centre = centre;
   if (raster.width == 0) return piece;
   const BitLanes& rows = *raster.unturned;  // rasterize() turns nothing
-  std::vector<std::size_t> row_begin;
-  for (int y = 0; y < rows.lanes; ++y) {
-    row_begin.push_back(piece.runs.size());
-    for_each_run(rows.lane(y), rows.length, [&](int begin, int end) {
-      piece.runs.push_back({y, begin, end});
-    });
+  piece.runs = runs_of(rows);
+  std::vector<std::size_t> row_begin(static_cast<std::size_t>(rows.lanes) + 1, piece.runs.size());
+  for (std::size_t i = piece.runs.size(); i-- > 0;) {
+    row_begin[static_cast<std::size_t>(piece.runs[i].row)] = i;
   }
-  row_begin.push_back(piece.runs.size());
+  for (std::size_t y = row_begin.size() - 1; y-- > 0;) {
+    row_begin[y] = std::min(row_begin[y], row_begin[y + 1]);
+  }
   for (const int y : spread_order(rows.lanes)) {
     const auto row = static_cast<std::size_t>(y);
     for (std::size_t i = row_begin[row]; i < row_begin[row + 1]; ++i) {

@@ -36,6 +36,12 @@ struct Piece {
   std::vector<PieceRun> spread;  ///< the same cells, cut to kLongestRun, rows far apart first
 };
 
+/// The runs of rows of cells, row by row.
+std::vector<PieceRun> runs_of(const BitLanes& rows);
+
+/// Moves some long runs that lie far apart to the front: most often one of them is in the way.
+void lead_with_telling_runs(std::vector<PieceRun>& runs, int height);
+
 /// The runs of a raster. `centre` is the chart's, in cells from the raster's cell (0,0).
 Piece make_piece(const ChartRaster& raster, Vec2 centre);
 

@@ -41,9 +41,7 @@ std::optional<FineLayout> refine(std::span<const ChartShape> shapes, const Frame
         const Piece& piece = library.piece(i, places[i].angle);
         best->covered_cells += piece.cells;
         best->placements.push_back(
-            {piece.angle,
-             {(piece.offset.x + places[i].x) * frame.cell.x + frame.origin.x,
-              (piece.offset.y + places[i].y) * frame.cell.y + frame.origin.y}});
+            place_on(frame, piece.angle, piece.offset, places[i].x, places[i].y));
       }
     } else if (!best) {
       // The next attempt begins where this one came closest.

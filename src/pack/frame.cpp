@@ -101,4 +101,25 @@ Result<Frame> make_frame(int texture_width, int texture_height, double cell,
   return frame;
 }
 
+Placement place_on(const Frame& frame, double angle, Vec2 offset, int x, int y) {
+  return {angle,
+          {(offset.x + x) * frame.cell.x + frame.origin.x,
+           (offset.y + y) * frame.cell.y + frame.origin.y}};
+}
+
+Packing make_packing(const Frame& frame, Wrap wrap, double scale, double area,
+                     std::vector<Placement> placements, std::int64_t covered) {
+  Packing packing;
+  packing.width = frame.texture_width;
+  packing.height = frame.texture_height;
+  packing.wrap = wrap;
+  packing.scale = scale;
+  packing.placements = std::move(placements);
+  packing.efficiency = scale * scale * area / frame.texels();
+  packing.grid_width = frame.width;
+  packing.grid_height = frame.height;
+  packing.raster_efficiency = static_cast<double>(covered) / (double(frame.width) * frame.height);
+  return packing;
+}
+
 }  // namespace wrapatlas

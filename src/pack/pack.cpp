@@ -14,7 +14,7 @@
 
 #include "charts/hull.h"
 #include "guided/guided.h"
-#include "pack/frame.h"
+#include "pack/aspects.h"
 #include "pack/parallel.h"
 #include "pack/placer.h"
 #include "pack/raster_cache.h"
@@ -67,9 +67,6 @@ Status check_options(const PackOptions& options) {
       options.wrap != Wrap::none) {
     return usage("this packer cannot wrap", "use --wrap none with this method");
   }
-  if (options.method == Method::guided && options.search_aspect) {
-    return usage("guided does not search for the best shape", "give a size, or use modulo");
-  }
   if (!(options.time >= 0 && options.time <= 1e6) || options.moves < 0) {
     return usage("a search has to have a time from 0 to 1e6 seconds and 0 or more moves", "");
   }
@@ -100,7 +97,7 @@ PlaceFunction place_function(Method method) {
     case Method::zsgs04:
       return place_zsgs04;
     case Method::modulo:
-    case Method::guided:  // has its own search; here for charts that are too many for it
+    case Method::guided:  // has a search of its own
       return place_modulo;
   }
   return place_modulo;
@@ -189,6 +186,7 @@ class Packer {
     search.seconds = seconds_since(start);
   }
 
+  [[nodiscard]] double area() const { return area_; }
   [[nodiscard]] double scale(double factor) const { return factor * full_scale_; }
   [[nodiscard]] double efficiency(const Search& search) const {
     const double s = scale(search.factor);
@@ -252,75 +250,26 @@ int choose_grid(const PackOptions& options, std::size_t charts) {
   return std::clamp(static_cast<int>(cells), 256, finest);
 }
 
-/// The paper's 31 aspect ratios of one area, w = round(n 2^(k/10)), h = round(n 2^(-k/10)), k from
-/// -15 to 15 (section 3), as textures of whole cells.
-Result<std::vector<Frame>> make_frames(const PackOptions& options, std::size_t charts) {
-  const int grid = choose_grid(options, charts);
-  const double cell = double(std::max(options.width, options.height)) / grid;
-  std::vector<Frame> frames;
-  if (!options.search_aspect) {
-    auto frame = make_frame(options.width, options.height, cell, options);
-    if (!frame) return frame.error();
-    frames.push_back(*frame);
-    return frames;
-  }
-  const double side = std::sqrt(double(options.width) * options.height);
-  // Textures whose sides are whole cells pack best; a cell of whole texels makes both whole.
-  const double block = options.block;
-  const double unit = std::max(block, std::round(cell / block) * block);
-  // From the square outwards, so that a search cut short has tried what is likely to be good.
-  for (int i = 0; i < 31; ++i) {
-    const int k = i % 2 == 1 ? (i + 1) / 2 : -i / 2;
-    const auto texels = [&](double exponent) {
-      return static_cast<int>(std::max(1.0, std::round(side / unit * std::exp2(exponent))) * unit);
-    };
-    auto frame = make_frame(texels(k / 10.0), texels(-k / 10.0), cell < 1 ? cell : unit, options);
-    if (!frame) return frame.error();
-    frames.push_back(*frame);
-  }
-  return frames;
-}
-
 Packing to_packing(const Search& search, const Packer& packer, const PackOptions& options) {
   const Frame& frame = search.frame;
-  Packing packing;
-  packing.width = frame.texture_width;
-  packing.height = frame.texture_height;
-  packing.wrap = options.wrap;
-  packing.scale = packer.scale(search.factor);
-  packing.efficiency = packer.efficiency(search);
-  packing.grid_width = frame.width;
-  packing.grid_height = frame.height;
+  std::vector<Placement> placements;
   std::int64_t covered = 0;
   for (std::size_t chart = 0; chart < search.placements.size(); ++chart) {
     const CellPlacement& cell = search.placements[chart];
     const ChartRaster& raster = search.rasters->of(chart)[static_cast<std::size_t>(cell.rotation)];
     covered += raster.cells;
-    packing.placements.push_back({raster.angle,
-                                  {(raster.offset.x + cell.x) * frame.cell.x + frame.origin.x,
-                                   (raster.offset.y + cell.y) * frame.cell.y + frame.origin.y}});
+    placements.push_back(place_on(frame, raster.angle, raster.offset, cell.x, cell.y));
   }
-  packing.raster_efficiency = static_cast<double>(covered) / (double(frame.width) * frame.height);
-  return packing;
+  return make_packing(frame, options.wrap, packer.scale(search.factor), packer.area(),
+                      std::move(placements), covered);
 }
 
-}  // namespace
-
-Result<Packing> pack(std::span<const Chart> charts, const PackOptions& options) {
-  if (const Status ok = check_options(options); !ok) return ok.error();
-  if (charts.empty()) return usage("there are no charts to pack", "give at least one");
-  double area = 0;
-  for (const Chart& chart : charts) area += chart.area;
-  if (!(area > 0) || !std::isfinite(area)) {
-    return Error{ErrorKind::input, "charts", "their total area is zero or not finite",
-                 "unwrap the mesh again: its UVs are collapsed"};
-  }
-  if (options.method == Method::guided && charts.size() <= kMostGuidedCharts) {
-    if (std::optional<Packing> packing = pack_guided(charts, options)) return *std::move(packing);
-  }
-  auto frames = make_frames(options, charts.size());
+/// pack() by a method that places all charts at one scale after another.
+Result<Packing> pack_by_scales(std::span<const Chart> charts, const PackOptions& options,
+                               double area) {
+  const int longest = std::max(options.width, options.height);
+  auto frames = make_frames(options, double(longest) / choose_grid(options, charts.size()));
   if (!frames) return frames.error();
-
   std::vector<RasterShape> shapes;
   std::vector<std::vector<double>> angles;
   for (const Chart& chart : charts) {
@@ -360,6 +309,21 @@ Result<Packing> pack(std::span<const Chart> charts, const PackOptions& options) 
   }
   packing.place_seconds = std::max(0.0, packing.place_seconds - packing.raster_seconds);
   return packing;
+}
+
+}  // namespace
+
+Result<Packing> pack(std::span<const Chart> charts, const PackOptions& options) {
+  if (const Status ok = check_options(options); !ok) return ok.error();
+  if (charts.empty()) return usage("there are no charts to pack", "give at least one");
+  double area = 0;
+  for (const Chart& chart : charts) area += chart.area;
+  if (!(area > 0) || !std::isfinite(area)) {
+    return Error{ErrorKind::input, "charts", "their total area is zero or not finite",
+                 "unwrap the mesh again: its UVs are collapsed"};
+  }
+  if (options.method == Method::guided) return pack_guided(charts, options, pack_by_scales);
+  return pack_by_scales(charts, options, area);
 }
 
 }  // namespace wrapatlas

@@ -9,6 +9,7 @@
 #include "guided/field.h"
 #include "guided/piece.h"
 #include "guided/random.h"
+#include "support/random_piece.h"
 #include "support/shapes.h"
 #include "support/soup_check.h"
 #include "wrapatlas/pack.h"
@@ -16,21 +17,7 @@
 namespace wrapatlas {
 namespace {
 
-Piece random_piece(Random& random, int width, int height) {
-  Piece piece;
-  piece.width = width;
-  piece.height = height;
-  for (int y = 0; y < height; ++y) {
-    for (int x = random.below(3); x < width;) {
-      const int end = std::min(width, x + 1 + random.below(6));
-      piece.runs.push_back({y, x, end});
-      piece.cells += end - x;
-      x = end + 1 + random.below(4);
-    }
-  }
-  piece.spread = piece.runs;
-  return piece;
-}
+using test::random_piece;
 
 /// Weights cell by cell.
 struct SlowField {
@@ -252,22 +239,43 @@ TEST(Guided, IsDenserThanModulo) {
   EXPECT_GT(guided, modulo * 1.1);
 }
 
-TEST(Guided, TooManyChartsArePackedByModulo) {
-  const std::vector<Chart> charts(201, test::mixed_charts(1, 1)[0]);
-  PackOptions options = guided_options();
-  options.width = options.height = 1024;
-  options.padding = 0;
-  const auto packing = pack(charts, options);
-  ASSERT_TRUE(packing) << packing.error().message();
-  EXPECT_EQ(test::check_packing(charts, *packing, options), "");
+TEST(Guided, ManyChartsArePackedByBestFit) {
+  const std::vector<Chart> charts = test::mixed_charts(1, 260);
+  for (const Wrap wrap : {Wrap::uv, Wrap::u, Wrap::none}) {
+    PackOptions options = guided_options();
+    options.width = 500;
+    options.height = 300;
+    options.padding = 1.5;
+    options.wrap = wrap;
+    const auto packing = pack(charts, options);
+    ASSERT_TRUE(packing) << packing.error().message();
+    EXPECT_EQ(test::check_packing(charts, *packing, options), "");
+    options.method = Method::modulo;
+    EXPECT_GT(packing->efficiency, 1.1 * pack(charts, options)->efficiency);
+    options.method = Method::guided;
+    options.threads = 1;
+    const auto alone = pack(charts, options);
+    ASSERT_TRUE(alone);
+    EXPECT_EQ(alone->scale, packing->scale);
+    for (std::size_t i = 0; i < charts.size(); ++i) {
+      EXPECT_EQ(alone->placements[i].translation, packing->placements[i].translation);
+    }
+  }
 }
 
-TEST(Guided, AspectSearchIsRefused) {
+TEST(Guided, SearchesTheAspect) {
+  const std::vector<Chart> charts{test::rectangle(4, 1)};  // fills an atlas of 4 x 1
   PackOptions options = guided_options();
-  options.search_aspect = true;
-  const auto packing = pack(test::mixed_charts(1, 3), options);
-  ASSERT_FALSE(packing);
-  EXPECT_EQ(packing.error().kind, ErrorKind::usage);
+  options.padding = 0;
+  const double square = pack(charts, options)->efficiency;
+  for (const Aspect aspect : {Aspect::search, Aspect::pow2}) {
+    options.aspect = aspect;
+    const auto packing = pack(charts, options);
+    ASSERT_TRUE(packing) << packing.error().message();
+    EXPECT_EQ(test::check_packing(charts, *packing, options), "");
+    EXPECT_GT(packing->efficiency, square + 0.2);
+    EXPECT_NEAR(double(packing->width) * packing->height, 256.0 * 256, 1200);
+  }
 }
 
 TEST(Guided, StopsWithTheBestSoFar) {

@@ -54,7 +54,7 @@ TEST_P(EveryMethod, KeepsItsPromisesOnRandomCharts) {
 TEST_P(EveryMethod, SameBitsForAnyNumberOfThreads) {
   const std::vector<Chart> charts = test::mixed_charts(20, 12);
   PackOptions options = options_for(GetParam().method, GetParam().wrap);
-  options.search_aspect = GetParam().method != Method::guided;
+  options.aspect = Aspect::search;
   options.grid = 64;
   const auto one = pack(charts, options);
   options.threads = 3;
@@ -130,9 +130,9 @@ TEST(Pack, BlocksAreNotShared) {
 }
 
 TEST(Pack, StopsWithTheBestSoFar) {
-  const std::vector<Chart> charts = test::mixed_charts(5, 20);
+  const std::vector<Chart> charts = test::mixed_charts(5, 150);
   PackOptions options = options_for(Method::modulo, Wrap::uv);
-  options.search_aspect = true;
+  options.aspect = Aspect::search;
   options.progress = [](const Progress& progress) { return progress.best_efficiency == 0; };
   const auto packing = pack(charts, options);
   ASSERT_TRUE(packing) << packing.error().message();
@@ -170,7 +170,7 @@ TEST(Pack, LimitsOfTheGridHold) {
   PackOptions options = options_for(Method::modulo, Wrap::uv);
   options.width = options.height = 8192;
   options.grid = 8192;
-  options.search_aspect = true;
+  options.aspect = Aspect::search;
   EXPECT_EQ(pack(charts, options).error().kind, ErrorKind::usage);
 
   options = options_for(Method::modulo, Wrap::none);
@@ -182,7 +182,7 @@ TEST(Pack, LimitsOfTheGridHold) {
 
 TEST(Pack, AspectSearchKeepsToBlocksLargerThanCells) {
   PackOptions options = options_for(Method::modulo, Wrap::uv);
-  options.search_aspect = true;
+  options.aspect = Aspect::search;
   options.block = 16;
   options.padding = 0;
   const std::vector<Chart> charts = test::mixed_charts(4, 6);

@@ -1,0 +1,238 @@
+#include "guided/best_fit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace wrapatlas {
+namespace {
+
+/// A chart has about this many cells along its side on the board where its place is sought.
+constexpr double kCellsAlong = 16;
+/// Boards with fewer rows are looked at as a whole.
+constexpr int kFewRows = 320;
+/// Tight translations after which a larger board need not be looked at further.
+constexpr int kEnough = 8;
+constexpr std::size_t kLooks = 48;      ///< translations per angle whose contact is counted
+constexpr std::size_t kFineLooks = 12;  ///< the same on the frame's grid
+constexpr std::size_t kSettled = 4;     ///< candidates tried on the frame's grid
+
+int modulo(int value, int size) {
+  const int rest = value % size;
+  return rest < 0 ? rest + size : rest;
+}
+
+int halved(int cells, int times) { return (cells + (1 << times) - 1) >> times; }
+
+Domain domain_of(const Frame& frame, Wrap wrap) {
+  return {frame.width, frame.height, wraps_u(wrap), wraps_v(wrap)};
+}
+
+Piece bare_piece(const ChartRaster& raster) {
+  Piece piece;
+  piece.width = raster.width;
+  piece.height = raster.height;
+  piece.cells = raster.cells;
+  piece.angle = raster.angle;
+  piece.offset = raster.offset;
+  piece.runs = runs_of(*raster.unturned);
+  lead_with_telling_runs(piece.runs, piece.height);
+  return piece;
+}
+
+/// Where the centre of a shape's box lies in a raster of it.
+Vec2 centre_in(const Piece& piece, const RasterShape& shape, const RasterScale& scale) {
+  const double c = std::cos(piece.angle), s = std::sin(piece.angle);
+  return {(c * shape.centre.x - s * shape.centre.y) * scale.cells_per_unit.x + piece.offset.x,
+          (s * shape.centre.x + c * shape.centre.y) * scale.cells_per_unit.y + piece.offset.y};
+}
+
+/// Takes the cells of the board that cells [begin, end) of row y of the frame's grid lie in.
+void take_halved(Occupancy& board, int halvings, const Domain& fine, int y, int begin, int end) {
+  y %= fine.height;
+  for (int from = begin % fine.width, left = end - begin; left > 0; from = 0) {
+    const int part = std::min(left, fine.width - from);
+    board.take(y >> halvings, from >> halvings, ((from + part - 1) >> halvings) + 1);
+    left -= part;
+  }
+}
+
+}  // namespace
+
+BestFitPage::BestFitPage(const Frame& frame, Wrap wrap, Coverage coverage, double scale)
+    : frame_(frame), coverage_(coverage), scale_(scale), fine_(domain_of(frame, wrap)) {}
+
+RasterScale BestFitPage::raster_scale(int halvings) const {
+  const double cells = std::exp2(-halvings);
+  RasterScale scale;
+  scale.cells_per_unit = {scale_ / frame_.cell.x * cells, scale_ / frame_.cell.y * cells};
+  scale.growth = frame_.growth * cells;
+  scale.coverage = coverage_;
+  return scale;
+}
+
+/// Makes the board for charts of this size, if it is not there yet.
+void BestFitPage::use_board(int halvings, double area) {
+  if (halvings != halvings_) {
+    halvings_ = halvings;
+    const Domain fine = fine_.domain();
+    coarse_.reset();
+    if (halvings > 0) {
+      coarse_ = std::make_unique<Occupancy>(Domain{
+          halved(fine.width, halvings), halved(fine.height, halvings), fine.wraps_x, fine.wraps_y});
+      for (int y = 0; y < fine.height; ++y) {
+        for_each_run(fine_.row(0, y), fine.width, [&](int begin, int end) {
+          take_halved(*coarse_, halvings, fine, y, begin, end);
+        });
+      }
+      coarse_->update();
+    }
+    row_area_ = 0;
+  }
+  // Smaller charts find room above, where larger ones did not.
+  constexpr double kSmaller = 0.6;
+  if (row_area_ == 0 || area < kSmaller * row_area_) {
+    row_area_ = area;
+    first_row_ = 0;
+  }
+}
+
+/// Fills candidates_ with places on the board, the best first.
+void BestFitPage::seek(const RasterShape& shape, std::span<const double> angles, bool everywhere) {
+  candidates_.clear();
+  const Occupancy& board = this->board();
+  const Domain& domain = board.domain();
+  const RasterScale scale = raster_scale(halvings_);
+  const double fine = std::exp2(halvings_);
+  const int max_side = 4 * std::max(domain.width, domain.height);
+  int first_free = domain.height;
+  // Of the smallest charts there are very many, and angles say little of them.
+  const std::size_t step = halvings_ == 0 && domain.height > kFewRows ? 2 : 1;
+  for (std::size_t i = 0; i < angles.size(); i += step) {
+    const double angle = angles[i];
+    const ChartRaster raster = rasterize(shape, scale, angle, max_side);
+    if (raster.width == 0) continue;
+    const Piece piece = bare_piece(raster);
+    if (!admits(domain, piece)) continue;
+    FreeRange range;
+    range.x_end = domain.width;
+    range.y_begin = everywhere ? 0 : first_row_;
+    const int rows = domain.wraps_y ? domain.height : domain.height - piece.height + 1;
+    range.y_count = rows - range.y_begin;
+    if (range.y_count <= 0) continue;
+    range.whole = true;
+    const Probes probes = probes_of(piece, *raster.unturned, board);
+    free_.scan(board, probes, range, rows > kFewRows ? kEnough : 0);
+    if (free_.first_row() < 0) continue;
+    first_free = std::min(first_free, range.y_begin + free_.first_row());
+    free_.tightest(kLooks, shifts_);
+    const Ring ring = ring_of(*raster.unturned);
+    Candidate best;
+    best.contact = -1;
+    CellShift best_shift;
+    for (const CellShift& shift : shifts_) {
+      const double touching = contact(board, ring, shift.x, shift.y);
+      if (touching <= best.contact) continue;
+      best.contact = touching;
+      best_shift = shift;
+    }
+    const Vec2 centre = centre_in(piece, shape, scale);
+    best.angle = angle;
+    best.at = {(best_shift.x + centre.x) * fine, (best_shift.y + centre.y) * fine};
+    candidates_.push_back(best);
+  }
+  if (domain.height > kFewRows && !everywhere) first_row_ = std::min(first_free, domain.height - 1);
+  std::stable_sort(candidates_.begin(), candidates_.end(),
+                   [](const Candidate& a, const Candidate& b) { return a.contact > b.contact; });
+}
+
+/// Moves a chart from a place on the board into contact on the frame's grid.
+std::optional<BestFitPage::Spot> BestFitPage::settle(const RasterShape& shape,
+                                                     const Candidate& candidate) {
+  const Domain& domain = fine_.domain();
+  const RasterScale scale = raster_scale(0);
+  const ChartRaster raster =
+      rasterize(shape, scale, candidate.angle, 4 * std::max(domain.width, domain.height));
+  if (raster.width == 0) return {};
+  const Piece piece = bare_piece(raster);
+  if (!admits(domain, piece)) return {};
+  const Vec2 centre = centre_in(piece, shape, scale);
+  const int x = static_cast<int>(std::lround(candidate.at.x - centre.x));
+  const int y = static_cast<int>(std::lround(candidate.at.y - centre.y));
+  const int window = halvings_ == 0 ? 0 : (1 << halvings_) + 1;
+  const Probes probes = probes_of(piece, *raster.unturned, fine_);
+  const Ring ring = ring_of(*raster.unturned);
+  CellShift best;
+  double most = -1;
+  const auto look = [&](int x_begin, int x_end) {
+    FreeRange range;
+    range.x_begin = x_begin;
+    range.x_end = x_end;
+    range.y_begin = y - window;
+    range.y_count = 2 * window + 1;
+    if (domain.wraps_y) {
+      range.y_begin = modulo(range.y_begin, domain.height);
+      range.y_count = std::min(range.y_count, domain.height);
+    } else {
+      const int end = std::min(range.y_begin + range.y_count, domain.height - piece.height + 1);
+      range.y_begin = std::max(range.y_begin, 0);
+      range.y_count = end - range.y_begin;
+      if (range.y_count <= 0) return;
+    }
+    free_.scan(fine_, probes, range, 0);
+    free_.tightest(kFineLooks, shifts_);
+    for (const CellShift& shift : shifts_) {
+      const double touching = contact(fine_, ring, shift.x, shift.y);
+      if (touching <= most) continue;
+      most = touching;
+      best = shift;
+    }
+  };
+  if (!domain.wraps_x) {
+    look(std::max(x - window, 0), std::min(x + window + 1, domain.width));
+  } else if (2 * window + 1 >= domain.width) {
+    look(0, domain.width);
+  } else {
+    const int begin = modulo(x - window, domain.width), end = begin + 2 * window + 1;
+    look(begin, std::min(end, domain.width));
+    if (end > domain.width) look(0, end - domain.width);
+  }
+  if (most < 0) return {};
+  take(piece, best.x, best.y);
+  return Spot{place_on(frame_, piece.angle, piece.offset, best.x, best.y), piece.cells};
+}
+
+void BestFitPage::take(const Piece& piece, int x, int y) {
+  for (const PieceRun& run : piece.runs) {
+    fine_.take(y + run.row, x + run.begin, x + run.end);
+    if (coarse_) {
+      take_halved(*coarse_, halvings_, fine_.domain(), y + run.row, x + run.begin, x + run.end);
+    }
+  }
+  fine_.update();
+  if (coarse_) coarse_->update();
+}
+
+std::optional<BestFitPage::Spot> BestFitPage::place(const RasterShape& shape, double area,
+                                                    std::span<const double> angles) {
+  const double along =
+      std::sqrt(area) * scale_ / std::sqrt(frame_.cell.x * frame_.cell.y) + 2 * frame_.growth + 1;
+  const int halvings = std::max(0, static_cast<int>(std::floor(std::log2(along / kCellsAlong))));
+  use_board(halvings, area);
+  for (const bool everywhere : {false, true}) {
+    if (everywhere && first_row_ == 0) break;
+    seek(shape, angles, everywhere);
+    for (std::size_t i = 0; i < std::min(kSettled, candidates_.size()); ++i) {
+      if (auto spot = settle(shape, candidates_[i])) return spot;
+    }
+  }
+  return {};
+}
+
+std::vector<double> best_fit_angles(double base, int count) {
+  std::vector<double> angles;
+  for (int i = 0; i < count; ++i) angles.push_back(base + 2 * std::numbers::pi * i / count);
+  return angles;
+}
+
+}  // namespace wrapatlas

@@ -1,0 +1,61 @@
+// Best fit: a page is filled chart by chart, each where most of its outline touches what is there.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "guided/contact.h"
+#include "guided/free_map.h"
+#include "guided/piece_library.h"
+#include "pack/frame.h"
+#include "wrapatlas/pack.h"
+
+namespace wrapatlas {
+
+/// One page at one scale. Charts have to come by decreasing area, roughly: each is first looked
+/// for a place on a board whose cells are as large as its size allows, and then moved into contact
+/// on the board of the frame, which alone decides what is free.
+class BestFitPage {
+ public:
+  BestFitPage(const Frame& frame, Wrap wrap, Coverage coverage, double scale);
+
+  struct Spot {
+    Placement placement;
+    std::int64_t cells = 0;  ///< of the frame's grid that it covers
+  };
+  /// Puts a chart at the best of the angles (radians), or nowhere if none is found.
+  std::optional<Spot> place(const RasterShape& shape, double area, std::span<const double> angles);
+
+ private:
+  struct Candidate {
+    double angle = 0;
+    Vec2 at;  ///< fine cells, of the chart's box centre
+    double contact = 0;
+  };
+  [[nodiscard]] RasterScale raster_scale(int halvings) const;
+  void use_board(int halvings, double area);
+  void seek(const RasterShape& shape, std::span<const double> angles, bool everywhere);
+  std::optional<Spot> settle(const RasterShape& shape, const Candidate& candidate);
+  void take(const Piece& piece, int x, int y);
+  [[nodiscard]] Occupancy& board() { return coarse_ ? *coarse_ : fine_; }
+
+  Frame frame_;
+  Coverage coverage_;
+  double scale_;
+  Occupancy fine_;
+  std::unique_ptr<Occupancy> coarse_;  ///< none while halvings_ is 0
+  int halvings_ = 0;                   ///< a cell of the board is 2^halvings_ of the frame's long
+  int first_row_ = 0;    ///< of the board; above it charts of this size found no place
+  double row_area_ = 0;  ///< of the charts that first_row_ is for
+  FreeMap free_;
+  std::vector<Candidate> candidates_;
+  std::vector<CellShift> shifts_;
+};
+
+/// `count` uniform angles (radians) from a base on.
+std::vector<double> best_fit_angles(double base, int count);
+
+}  // namespace wrapatlas

@@ -1,0 +1,154 @@
+#include "guided/best_fit_search.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+
+#include "guided/best_fit.h"
+#include "guided/random.h"
+#include "pack/parallel.h"
+
+namespace wrapatlas {
+namespace {
+
+/// Scales tried at once, whatever the number of threads, so that the result does not depend on it.
+constexpr std::size_t kAtOnce = 2;
+constexpr double kTolerance = 0.004;  ///< of the factor of the scale
+constexpr double kLikely = 0.6;       ///< a factor that almost always succeeds
+constexpr double kSmallest = 1e-3;    ///< give up when not even this does
+
+class BestFitSearch {
+ public:
+  BestFitSearch(std::span<const ChartShape> shapes, const PackOptions& options, const Frame& frame,
+                Record& record)
+      : shapes_(shapes), options_(options), frame_(frame), record_(record) {
+    for (const ChartShape& shape : shapes_) area_ += shape.area;
+    full_scale_ = std::sqrt(frame_.texels() / area_);
+    for (const ChartShape& shape : shapes_) {
+      angles_.push_back(best_fit_angles(shape.base_angle, options.rotations));
+    }
+    by_area_ = order_of(0);
+  }
+
+  void find_scale() {
+    double lower = 0, upper = 1, likely = kLikely;
+    while (!record_.stopped() && upper - lower > std::min(kTolerance, upper / 10)) {
+      std::array<double, kAtOnce> factors{lower + (upper - lower) / 3,
+                                          lower + 2 * (upper - lower) / 3};
+      if (lower == 0) factors = {likely, likely + (upper - likely) / 2};
+      const std::size_t success = try_all(factors);
+      if (success < kAtOnce) {
+        lower = factors[success];
+        if (success + 1 < kAtOnce) upper = raised(factors[success + 1], upper);
+      } else {
+        upper = raised(factors[0], upper);
+        likely = 0.75 * factors[0];
+        if (upper < kSmallest) break;
+      }
+    }
+  }
+
+  /// Tries slightly larger scales with the charts in other orders.
+  void vary() {
+    constexpr double kStep = 1.002;
+    for (std::uint64_t round = 1; best_factor_ > 0 && !done(); ++round) {
+      parallel_for(kAtOnce, thread_count(options_.threads), [&](std::size_t i) {
+        attempt(best_factor_ * kStep, order_of(round * kAtOnce + i), [this] { return done(); });
+      });
+      settle();
+    }
+  }
+
+ private:
+  /// A chart order: by area, blurred a little for all numbers but 0.
+  [[nodiscard]] std::vector<std::uint32_t> order_of(std::uint64_t number) const {
+    Random random(options_.seed * 7919 + number);
+    std::vector<double> size(shapes_.size());
+    constexpr double kBlur = 0.7;
+    for (std::size_t i = 0; i < size.size(); ++i) {
+      size[i] = shapes_[i].area * (number == 0 ? 1 : std::exp(kBlur * (random.unit() - 0.5)));
+    }
+    std::vector<std::uint32_t> order(shapes_.size());
+    std::iota(order.begin(), order.end(), 0U);
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::uint32_t a, std::uint32_t b) { return size[a] > size[b]; });
+    return order;
+  }
+
+  /// Success is not monotone: a scale that failed leaves some room above it (see scale_search.h).
+  static double raised(double factor, double upper) { return factor + (upper - factor) / 4; }
+
+  [[nodiscard]] bool done() {
+    return record_.poll() || (record_.timed() && Effort::Clock::now() >= record_.at(1));
+  }
+
+  /// The largest of the factors that succeeds, or their number.
+  std::size_t try_all(const std::array<double, kAtOnce>& factors) {
+    std::array<std::atomic<bool>, kAtOnce> succeeded{};
+    // The largest first: once it succeeds the others need not.
+    parallel_for(kAtOnce, thread_count(options_.threads), [&](std::size_t k) {
+      const std::size_t i = kAtOnce - 1 - k;
+      const auto stop = [&] {
+        for (std::size_t larger = i + 1; larger < kAtOnce; ++larger) {
+          if (succeeded[larger]) return true;
+        }
+        return record_.poll();
+      };
+      succeeded[i] = attempt(factors[i], by_area_, stop);
+    });
+    settle();
+    for (std::size_t i = kAtOnce; i-- > 0;) {
+      if (succeeded[i]) return i;
+    }
+    return kAtOnce;
+  }
+
+  template <typename Stop>
+  bool attempt(double factor, const std::vector<std::uint32_t>& order, Stop stop) {
+    if (factor <= best_factor_) return false;
+    BestFitPage page(frame_, options_.wrap, options_.coverage, factor * full_scale_);
+    std::vector<Placement> placements(shapes_.size());
+    std::int64_t cells = 0;
+    for (const std::uint32_t chart : order) {
+      if (stop()) return false;
+      const auto spot = page.place(shapes_[chart].raster, shapes_[chart].area, angles_[chart]);
+      if (!spot) return false;
+      placements[chart] = spot->placement;
+      cells += spot->cells;
+    }
+    const std::lock_guard lock(mutex_);
+    if (factor > found_factor_) {
+      found_factor_ = factor;
+      record_.offer(make_packing(frame_, options_.wrap, factor * full_scale_, area_,
+                                 std::move(placements), cells),
+                    1);
+    }
+    return true;
+  }
+  /// Between rounds, so that what a round does is the same however its attempts are timed.
+  void settle() { best_factor_ = found_factor_; }
+
+  std::span<const ChartShape> shapes_;
+  const PackOptions& options_;
+  const Frame& frame_;
+  Record& record_;
+  double area_ = 0, full_scale_ = 0;
+  std::vector<std::vector<double>> angles_;
+  std::vector<std::uint32_t> by_area_;
+  std::mutex mutex_;
+  double best_factor_ = 0, found_factor_ = 0;
+};
+
+}  // namespace
+
+void search_best_fit(std::span<const ChartShape> shapes, const PackOptions& options,
+                     std::span<const Frame> frames, Record& record) {
+  for (const Frame& frame : frames) {
+    BestFitSearch search(shapes, options, frame, record);
+    search.find_scale();
+    if (frames.size() == 1 && record.timed()) search.vary();
+  }
+}
+
+}  // namespace wrapatlas

@@ -1,0 +1,52 @@
+// Free translations of a piece over a part of the domain, and which of them are tight.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "guided/free_space.h"
+
+namespace wrapatlas {
+
+/// Translations to look at. `x_*`: within the domain. Rows go around where the domain wraps.
+struct FreeRange {
+  int x_begin = 0, x_end = 0;
+  int y_begin = 0, y_count = 0;
+  bool whole = false;  ///< the range is all there is, so that beyond it nothing is free
+};
+
+struct CellShift {
+  int x = 0, y = 0;
+};
+
+/// A translation is tight if few of its four neighbours are free: the piece is held there.
+class FreeMap {
+ public:
+  /// Looks at the rows of the range one after the other, until all were or `enough` translations
+  /// with two blocked neighbours or more were met. Returns the rows looked at.
+  int scan(const Occupancy& occupancy, const Probes& probes, const FreeRange& range, int enough);
+  /// First row of the range, counted from its beginning, with a free translation; -1: none.
+  [[nodiscard]] int first_row() const { return first_row_; }
+  /// Up to `count` free translations with a blocked neighbour, the tightest first; of equals they
+  /// are spread evenly. If no free one has a blocked neighbour, any of them.
+  void tightest(std::size_t count, std::vector<CellShift>& shifts) const;
+
+ private:
+  [[nodiscard]] std::uint64_t* row(int i) {
+    return free_.data() + static_cast<std::size_t>(i) * static_cast<std::size_t>(stride_);
+  }
+  bool fill_row(const Occupancy& occupancy, const Probes& probes, const FreeRange& range, int y,
+                std::uint64_t* to) const;
+  void rank(const Occupancy& occupancy, const FreeRange& range, int row, int rows_known);
+
+  int first_word_ = 0, words_ = 0, stride_ = 0;
+  int first_row_ = -1;
+  std::vector<std::uint64_t> free_;
+  CellShift any_;  ///< a free translation, if first_row_ says that there is one
+  std::array<std::vector<CellShift>, 5>
+      by_blocked_;  ///< by the number of blocked neighbours; not 0
+};
+
+}  // namespace wrapatlas

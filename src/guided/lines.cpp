@@ -1,0 +1,133 @@
+#include "guided/lines.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "pack/parallel.h"
+
+namespace wrapatlas {
+namespace {
+
+/// Cells of the coarse grid: enough for each chart to have a shape.
+int coarse_side(std::size_t charts) {
+  constexpr double kCellsPerChart = 200;
+  return std::clamp(static_cast<int>(std::sqrt(kCellsPerChart * static_cast<double>(charts))), 144,
+                    512);
+}
+
+constexpr int kEpochs = 8;              ///< times the best layout is handed to the other lines
+constexpr double kShapesShare = 0.5;    ///< of the time, to choose among shapes of atlas
+constexpr double kRefineReserve = 0.1;  ///< of the time, left for the last refinement
+
+}  // namespace
+
+Lines::Lines(std::span<const ChartShape> shapes, const PackOptions& options,
+             std::span<const Frame> frames, Record& record)
+    : shapes_(shapes), options_(options), record_(record) {
+  for (const ChartShape& shape : shapes) area_ += shape.area;
+  const std::size_t count = frames.size() > 1 ? frames.size() : lines_wanted();
+  for (std::size_t i = 0; i < count; ++i) {
+    const Frame& frame = frames[i % frames.size()];
+    CoarseOptions coarse;
+    coarse.side = coarse_side(shapes.size());
+    coarse.grown = options.padding / 2 + 0.3 * frame.cell.x;
+    const Vec2 lengths{frame.width * frame.cell.x, frame.height * frame.cell.y};
+    const std::uint64_t seed = options.seed * 1000003 + i;
+    lines_.push_back(std::make_unique<Line>(Line{
+        &frame, i,
+        CoarseSearch(shapes, lengths, wraps_u(options.wrap), wraps_v(options.wrap), coarse, seed),
+        Random(seed ^ 0xf1e2d3c4)}));
+  }
+}
+
+/// Not as many as threads where the result must not depend on them.
+std::size_t Lines::lines_wanted() const {
+  return record_.timed() ? static_cast<std::size_t>(thread_count(options_.threads)) : 2;
+}
+
+template <typename Job>
+void Lines::each_line(Job job) {
+  parallel_for(lines_.size(), thread_count(options_.threads),
+               [&](std::size_t i) { job(*lines_[i]); });
+}
+
+void Lines::improve(Line& line, Effort& effort) {
+  if (!line.coarse.found() || line.coarse.efficiency() <= line.refined) return;
+  line.refined = line.coarse.efficiency();
+  auto fine = refine(shapes_, *line.frame, options_, line.coarse.best(), {}, effort, line.random);
+  if (!fine) return;
+  record_.offer(make_packing(*line.frame, options_.wrap, fine->layout.scale, area_,
+                             std::move(fine->placements), fine->covered_cells),
+                1 + line.offers++ * lines_.size() + line.number);
+}
+
+/// Lets every line search in the given part of the whole time, or of the moves, an equal part each.
+void Lines::spend(double from, double to, bool until_stuck) {
+  const double turns =
+      std::ceil(static_cast<double>(lines_.size()) / std::max(1, thread_count(options_.threads)));
+  parallel_for(lines_.size(), thread_count(options_.threads), [&](std::size_t i) {
+    const double turn = std::floor(static_cast<double>(i) / thread_count(options_.threads));
+    Effort effort = record_.effort(from + (to - from) * (turn + 1) / turns);
+    if (options_.moves > 0) {
+      const double share = (to - from) / static_cast<double>(lines_.size());
+      effort.moves(static_cast<std::int64_t>(share * static_cast<double>(options_.moves)) + 1);
+    }
+    lines_[i]->coarse.run(effort, until_stuck);
+  });
+}
+
+void Lines::keep_best(std::size_t count) {
+  std::stable_sort(lines_.begin(), lines_.end(), [](const auto& a, const auto& b) {
+    return a->coarse.efficiency() > b->coarse.efficiency();
+  });
+  if (lines_.size() > count) lines_.resize(count);
+}
+
+void Lines::share_best() {
+  const auto& best = *std::max_element(
+      lines_.begin(), lines_.end(),
+      [](const auto& a, const auto& b) { return a->coarse.efficiency() < b->coarse.efficiency(); });
+  for (const auto& line : lines_) {
+    if (line->frame == best->frame && line->coarse.efficiency() < best->coarse.efficiency()) {
+      line->coarse.adopt(best->coarse);
+    }
+  }
+}
+
+void Lines::run() {
+  const bool once = !record_.timed() && options_.moves == 0;
+  double spent = 0;
+  const std::size_t wanted = lines_wanted();
+  const bool choose = lines_.size() > wanted;
+  if (choose) {
+    // Halving: all shapes get a little time, the better half of them as much again, and so on.
+    int rounds = 1;
+    while (lines_.size() >> rounds > wanted) ++rounds;
+    for (int round = 0; round < rounds && !record_.stopped(); ++round) {
+      const double share = kShapesShare / rounds;
+      spend(spent, spent + share, round == 0);
+      spent += share;
+      keep_best(once ? wanted : std::max(wanted, lines_.size() / 2));
+      if (once) break;
+    }
+  } else {
+    spend(0, 1 - kRefineReserve, true);
+  }
+  const auto improve_all = [&] {
+    each_line([&](Line& line) {
+      Effort effort = record_.effort(1);
+      improve(line, effort);
+    });
+  };
+  improve_all();
+  if (once) return;
+  for (int epoch = 1; epoch <= kEpochs && !record_.stopped(); ++epoch) {
+    share_best();
+    const double from = spent + (1 - kRefineReserve - spent) * (epoch - 1) / kEpochs;
+    const double to = spent + (1 - kRefineReserve - spent) * epoch / kEpochs;
+    spend(from, to, false);
+    improve_all();
+  }
+}
+
+}  // namespace wrapatlas

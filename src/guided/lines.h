@@ -1,0 +1,48 @@
+// Several lines of separation side by side, on one shape of atlas or on many; what they find is
+// refined on the grid of its frame.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "guided/coarse.h"
+#include "guided/record.h"
+#include "guided/refine.h"
+
+namespace wrapatlas {
+
+class Lines {
+ public:
+  /// One line for each of several frames; for one frame as many as can run at once.
+  Lines(std::span<const ChartShape> shapes, const PackOptions& options,
+        std::span<const Frame> frames, Record& record);
+
+  /// Searches until the record says that it is enough.
+  void run();
+
+ private:
+  struct Line {
+    const Frame* frame;
+    std::size_t number;
+    CoarseSearch coarse;
+    Random random;
+    std::size_t offers = 0;  ///< refined layouts so far
+    double refined = 0;      ///< efficiency of the coarse layout last refined
+  };
+  template <typename Job>
+  void each_line(Job job);
+  void spend(double from, double to, bool until_stuck);
+  void improve(Line& line, Effort& effort);
+  void keep_best(std::size_t count);
+  void share_best();
+  [[nodiscard]] std::size_t lines_wanted() const;
+
+  std::span<const ChartShape> shapes_;
+  const PackOptions& options_;
+  Record& record_;
+  double area_ = 0;
+  std::vector<std::unique_ptr<Line>> lines_;
+};
+
+}  // namespace wrapatlas

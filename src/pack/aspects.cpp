@@ -1,0 +1,63 @@
+#include "pack/aspects.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace wrapatlas {
+namespace {
+
+struct Size {
+  int width = 0, height = 0;
+};
+
+/// 0, 1, -1, 2, -2, ...: a search cut short has tried what is likely to be good.
+int outwards(int i) { return i % 2 == 1 ? (i + 1) / 2 : -i / 2; }
+
+/// Noell & Stricker 2011, section 3: 31 ratios, w = round(n 2^(k/10)), h = round(n 2^(-k/10)), k
+/// from -15 to 15, in whole cells. Textures whose sides are whole cells pack best; a cell of whole
+/// texels makes both whole.
+std::vector<Size> paper_sizes(double side, double unit) {
+  std::vector<Size> sizes;
+  for (int i = 0; i < 31; ++i) {
+    const double k = outwards(i);
+    const auto texels = [&](double exponent) {
+      return static_cast<int>(std::max(1.0, std::round(side / unit * std::exp2(exponent))) * unit);
+    };
+    sizes.push_back({texels(k / 10), texels(-k / 10)});
+  }
+  return sizes;
+}
+
+/// Sides 2^a x 2^b with a + b as near as can be to the area asked for, |a - b| <= 4.
+std::vector<Size> pow2_sizes(double side) {
+  const int sum = std::max(0, static_cast<int>(std::lround(2 * std::log2(side))));
+  std::vector<Size> sizes;
+  for (int i = 0; i < 9; ++i) {
+    const int difference = outwards(i);
+    const int across = sum + difference;
+    if (across % 2 != 0 || across < 0 || sum - difference < 0) continue;
+    sizes.push_back({1 << (across / 2), 1 << ((sum - difference) / 2)});
+  }
+  return sizes;
+}
+
+}  // namespace
+
+Result<std::vector<Frame>> make_frames(const PackOptions& options, double cell) {
+  const double side = std::sqrt(double(options.width) * options.height);
+  const double block = options.block;
+  const double unit = std::max(block, std::round(cell / block) * block);
+  std::vector<Size> sizes{{options.width, options.height}};
+  if (options.aspect == Aspect::search) sizes = paper_sizes(side, unit);
+  if (options.aspect == Aspect::pow2) sizes = pow2_sizes(side);
+  if (options.aspect == Aspect::search && cell >= 1) cell = unit;
+  std::vector<Frame> frames;
+  for (const Size& size : sizes) {
+    auto frame = make_frame(size.width, size.height, cell, options);
+    if (!frame) return frame.error();
+    frames.push_back(*frame);
+  }
+  return frames;
+}
+
+}  // namespace wrapatlas

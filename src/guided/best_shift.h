@@ -24,15 +24,15 @@ struct Shift {
 inline constexpr std::uint16_t kMostCost = 0xffff;
 
 /// The first translation in the range that costs least, if that is less than best.cost; else best
-/// stays. Runs the widest SIMD version the machine has; all give the same answer.
-void best_shift(const Field& field, std::span<const PieceRun> runs, const ShiftRange& range,
-                Shift& best);
+/// stays. Where the field's sums are sorted by phase, whole blocks of translations are ruled out by
+/// the piece's core. Runs the widest SIMD version the machine has; all give the same answer.
+void best_shift(const Field& field, const Piece& piece, const ShiftRange& range, Shift& best);
 
 /// What a piece costs at one place.
 std::uint16_t cost_at(const Field& field, std::span<const PieceRun> runs, int x, int y);
 
-using BestShiftKernel = void (*)(const Field& field, std::span<const PieceRun> runs,
-                                 const ShiftRange& range, Shift& best);
+using BestShiftKernel = void (*)(const Field& field, const Piece& piece, const ShiftRange& range,
+                                 Shift& best);
 /// The versions, for tests and benchmarks; null where the machine lacks one.
 BestShiftKernel best_shift_scalar();
 BestShiftKernel best_shift_avx2();

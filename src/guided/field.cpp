@@ -18,6 +18,7 @@ void Field::reset(const Domain& domain, Stretch x, Stretch y, int reach) {
   width_ = x.count + (x.cyclic ? reach : 0) + 1;
   stride_ = width_ + kReadAhead;
   sums_.assign(static_cast<std::size_t>(stride_) * static_cast<std::size_t>(y.count), 0);
+  phase_rows_.clear();
   rows_.resize(static_cast<std::size_t>(y.count + (y.cyclic ? reach : 0)));
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     rows_[i] =
@@ -130,6 +131,26 @@ void Field::sum() {
     for (int x = x_.count + 1; x < stride_; ++x) {
       row[x] = static_cast<std::uint16_t>(row[x - x_.count] + whole);
     }
+  }
+}
+
+void Field::sort_by_phase() {
+  phase_stride_ = stride_ / kBlock + kReadAhead;
+  const auto row_size = static_cast<std::size_t>(phase_stride_) * kBlock;
+  const auto rows = static_cast<std::size_t>(y_.count);
+  phase_sums_.resize(row_size * rows);
+  for (std::size_t y = 0; y < rows; ++y) {
+    const std::uint16_t* from = rows_[y];
+    std::uint16_t* to = phase_sums_.data() + row_size * y;
+    for (int i = 0; i < stride_ / kBlock; ++i) {
+      for (int phase = 0; phase < kBlock; ++phase) {
+        to[phase * phase_stride_ + i] = from[i * kBlock + phase];
+      }
+    }
+  }
+  phase_rows_.resize(rows_.size());
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    phase_rows_[i] = phase_sums_.data() + i % rows * row_size;
   }
 }
 

@@ -29,9 +29,18 @@ class Field {
   void add(const Piece& piece, int x, int y, int weight);
   /// Sums up what was added. After this rows() may be used.
   void sum();
+  /// Makes every kBlock-th sum of each row stand together, for best_shift() to rule out blocks.
+  /// Until the next reset().
+  void sort_by_phase();
 
   /// Row pointers, for rows counted from the stretch's origin, around where cyclic.
   [[nodiscard]] const std::uint16_t* const* rows() const { return rows_.data(); }
+  /// Rows of sums by phase: rows()[y][kBlock * i + p] is phases()[y][p * phase_stride() + i]. Null
+  /// if they were not asked for.
+  [[nodiscard]] const std::uint16_t* const* phases() const {
+    return phase_rows_.empty() ? nullptr : phase_rows_.data();
+  }
+  [[nodiscard]] int phase_stride() const { return phase_stride_; }
 
  private:
   void add_run(std::uint16_t* row, int begin, int end, int weight) const;
@@ -42,6 +51,9 @@ class Field {
   int width_ = 0;   ///< sums per row that may be read
   std::vector<std::uint16_t> sums_;
   std::vector<const std::uint16_t*> rows_;
+  int phase_stride_ = 0;
+  std::vector<std::uint16_t> phase_sums_;
+  std::vector<const std::uint16_t*> phase_rows_;
 };
 
 /// Cells that several pieces share have the sum of their weights, but no more than this, so that

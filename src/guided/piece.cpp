@@ -52,6 +52,34 @@ std::vector<PieceRun> runs_of(const BitLanes& rows) {
   return runs;
 }
 
+std::vector<PieceRun> core_of(const BitLanes& rows) {
+  constexpr std::size_t kMostRuns = 12;
+  BitLanes core = rows;
+  for (int y = rows.lanes - 1; y >= 0; --y) {
+    std::uint64_t* lane = core.lane(y);
+    for (int word = rows.words - 1; word >= 0; --word) {
+      for (int dy = 1; dy < kBlock; ++dy) {
+        lane[word] = y >= dy ? lane[word] & rows.lane(y - dy)[word] : 0;
+      }
+    }
+    for (int word = rows.words - 1; word >= 0; --word) {
+      const std::uint64_t here = lane[word], before = word > 0 ? lane[word - 1] : 0;
+      for (int dx = 1; dx < kBlock; ++dx) {
+        lane[word] &= here << dx | before >> (kWordBits - dx);
+      }
+    }
+  }
+  std::vector<PieceRun> runs;
+  for (const PieceRun& run : runs_of(core)) {
+    for (int begin = run.begin; begin < run.end; begin += kLongestRun) {
+      runs.push_back({run.row, begin, std::min(begin + kLongestRun, run.end)});
+    }
+  }
+  lead_with_telling_runs(runs, rows.lanes);
+  if (runs.size() > kMostRuns) runs.resize(kMostRuns);
+  return runs;
+}
+
 Piece make_piece(const ChartRaster& raster, Vec2 centre) {
   Piece piece;
   piece.width = raster.width;
@@ -80,6 +108,7 @@ Piece make_piece(const ChartRaster& raster, Vec2 centre) {
     }
   }
   lead_with_telling_runs(piece.spread, piece.height);
+  piece.core = core_of(rows);
   return piece;
 }
 

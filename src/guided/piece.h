@@ -25,6 +25,11 @@ struct PieceRun {
 /// (see field.h).
 inline constexpr int kLongestRun = 128;
 
+/// Translations are ruled out in blocks of kBlock x kBlock. The core of a piece are the cells that
+/// it covers at all translations of a block, seen from the block's first; so what they cost is less
+/// than what the piece costs anywhere in the block.
+inline constexpr int kBlock = 4;
+
 /// One chart at one angle and one scale.
 struct Piece {
   int width = 0, height = 0;   ///< cells; 0: too long to be made
@@ -34,6 +39,8 @@ struct Piece {
   Vec2 centre;                 ///< where the chart's centre lies
   std::vector<PieceRun> runs;  ///< row by row
   std::vector<PieceRun> spread;  ///< the same cells, cut to kLongestRun, rows far apart first
+  /// Some of the cells that the piece covers wherever in a block it is put: see kBlock.
+  std::vector<PieceRun> core;
 };
 
 /// The runs of rows of cells, row by row.
@@ -41,6 +48,10 @@ std::vector<PieceRun> runs_of(const BitLanes& rows);
 
 /// Moves some long runs that lie far apart to the front: most often one of them is in the way.
 void lead_with_telling_runs(std::vector<PieceRun>& runs, int height);
+
+/// Runs of the core of a piece with these cells, cut to kLongestRun, telling ones first, and no
+/// more than are worth asking.
+std::vector<PieceRun> core_of(const BitLanes& rows);
 
 /// The runs of a raster. `centre` is the chart's, in cells from the raster's cell (0,0).
 Piece make_piece(const ChartRaster& raster, Vec2 centre);

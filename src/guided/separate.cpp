@@ -106,6 +106,7 @@ void Separator::fill_field(std::size_t chart, const Stretch& x, const Stretch& y
 
 void Separator::move_anywhere(std::size_t chart, const SeparateOptions& options) {
   fill_field(chart, {0, domain_.width, domain_.wraps_x}, {0, domain_.height, domain_.wraps_y});
+  field_.sort_by_phase();
   const Place old = places_[chart];
   Place to = old;
   Shift best{cost_at(field_, library_.piece(chart, old.angle).spread, old.x, old.y), old.x, old.y};
@@ -117,7 +118,7 @@ void Separator::move_anywhere(std::size_t chart, const SeparateOptions& options)
     range.y_end = positions(domain_.height, piece.height, domain_.wraps_y);
     range.y_start = random_.below(range.y_end);
     const std::uint16_t before = best.cost;
-    best_shift(field_, piece.spread, range, best);
+    best_shift(field_, piece, range, best);
     if (best.cost < before) to = {angle, best.x, best.y};
   };
   try_angle(old.angle);
@@ -162,7 +163,7 @@ void Separator::move_nearby(std::size_t chart, const SeparateOptions& options) {
     if (range.x_begin >= range.x_end || range.y_begin >= range.y_end) return;
     range.y_start = range.y_begin + random_.below(range.y_end - range.y_begin);
     const std::uint16_t before = best.cost;
-    best_shift(field_, turned.spread, range, best);
+    best_shift(field_, turned, range, best);
     if (best.cost < before) {
       to = {angle, x.stretch.origin + best.x, y.stretch.origin + best.y};
       if (domain_.wraps_x) to.x = modulo(to.x, domain_.width);

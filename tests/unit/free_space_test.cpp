@@ -97,12 +97,6 @@ TEST(Occupancy, TablesSayWhetherAnyCellIsTaken) {
   }
 }
 
-BitLanes cells_of(const Piece& piece) {
-  BitLanes cells(piece.height, piece.width);
-  for (const PieceRun& run : piece.runs) set_span(cells.lane(run.row), run.begin, run.end);
-  return cells;
-}
-
 TEST(InnerSquares, LieInThePieceLargestFirst) {
   Random random(15);
   int met = 0;
@@ -151,7 +145,7 @@ TEST(FreeSpace, EveryVersionFindsAllFreeTranslations) {
     const Piece piece = test::random_piece(random, 1 + random.below(larger ? 2 * domain.width : 20),
                                            1 + random.below(larger ? 2 * domain.height : 8));
     if (piece.cells == 0 || !admits(domain, piece)) continue;
-    const Probes probes = probes_of(piece, cells_of(piece), boards.fast);
+    const Probes probes = probes_of(piece, test::cells_of(piece), boards.fast);
     const int words = words_for(domain.width);
     const int first = random.below(words), count = 1 + random.below(words - first);
     const int rows = domain.wraps_y ? domain.height : domain.height - piece.height + 1;
@@ -209,7 +203,7 @@ TEST(FreeMap, TightTranslationsComeFirst) {
       }
     }
     FreeMap map;
-    EXPECT_EQ(map.scan(boards.fast, probes_of(piece, cells_of(piece), boards.fast), range, 0),
+    EXPECT_EQ(map.scan(boards.fast, probes_of(piece, test::cells_of(piece), boards.fast), range, 0),
               range.y_count);
     EXPECT_EQ(map.first_row() >= 0, all > 0);
     std::vector<CellShift> shifts;

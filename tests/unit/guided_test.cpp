@@ -120,8 +120,9 @@ TEST(Field, APartOfTheDomainHasTheSameCosts) {
 
 TEST(BestShift, EveryVersionFindsTheFirstLeastCost) {
   Random random(3);
-  for (int trial = 0; trial < 80; ++trial) {
-    const Domain domain{20 + random.below(90), 20 + random.below(40), true, true};
+  int cores = 0;
+  for (int trial = 0; trial < 200; ++trial) {
+    const Domain domain{20 + random.below(200), 20 + random.below(40), true, true};
     SlowField slow(domain);
     Field field;
     field.reset(domain, {0, domain.width, true}, {0, domain.height, true}, 40);
@@ -132,7 +133,10 @@ TEST(BestShift, EveryVersionFindsTheFirstLeastCost) {
       slow.add(piece, x, y, 8);
     }
     field.sum();
-    const Piece moved = random_piece(random, 1 + random.below(20), 1 + random.below(20));
+    if (trial % 3 > 0) field.sort_by_phase();
+    const Piece moved =
+        random_piece(random, 1 + random.below(40), 1 + random.below(20), trial % 2 == 0 ? 6 : 60);
+    cores += moved.core.empty() ? 0 : 1;
     ShiftRange range;
     range.x_begin = random.below(5);
     range.x_end = range.x_begin + 1 + random.below(domain.width - range.x_begin);
@@ -152,10 +156,28 @@ TEST(BestShift, EveryVersionFindsTheFirstLeastCost) {
          {best_shift_scalar(), best_shift_avx2(), best_shift_avx512()}) {
       if (kernel == nullptr) continue;
       Shift best = limit;
-      kernel(field, moved.spread, range, best);
+      kernel(field, moved, range, best);
       EXPECT_EQ(best.cost, expected.cost);
       EXPECT_EQ(best.x, expected.x);
       EXPECT_EQ(best.y, expected.y);
+    }
+  }
+  EXPECT_GT(cores, 50);
+}
+
+TEST(Piece, TheCoreIsCoveredAllOverABlock) {
+  Random random(6);
+  for (int trial = 0; trial < 100; ++trial) {
+    const Piece piece = random_piece(random, 1 + random.below(200), 1 + random.below(30), 90);
+    const BitLanes cells = test::cells_of(piece);
+    for (const PieceRun& run : piece.core) {
+      ASSERT_LE(run.end - run.begin, kLongestRun);
+      for (int x = run.begin; x < run.end; ++x) {
+        for (int k = 0; k < kBlock * kBlock; ++k) {
+          const int column = x - k % kBlock, row = run.row - k / kBlock;
+          ASSERT_TRUE(column >= 0 && row >= 0 && cells.test(row, column));
+        }
+      }
     }
   }
 }

@@ -9,6 +9,7 @@
 #include "check_hints.h"
 #include "common.h"
 #include "options.h"
+#include "output_paths.h"
 #include "wrapatlas/model.h"
 #include "wrapatlas/validate.h"
 
@@ -146,10 +147,17 @@ int run(const CLI::App& app, CheckArguments& arguments) {
   load_options.texcoord_set = arguments.texcoord;
   const auto atlas = load_model(arguments.input, load_options);
   if (!atlas) return report_error(atlas.error());
+  const OutputPath report_path[] = {{"--json", arguments.json}};
+  if (const Status ok = refuse_overwriting(arguments.input, *atlas, report_path); !ok) {
+    return report_error(ok.error());
+  }
   std::optional<Model> reference;
   if (!arguments.reference.empty()) {
     auto loaded = load_model(arguments.reference, load_options);
     if (!loaded) return report_error(loaded.error());
+    if (const Status ok = refuse_overwriting(arguments.reference, *loaded, report_path); !ok) {
+      return report_error(ok.error());
+    }
     reference = std::move(*loaded);
     if (reference->v_points_down != atlas->v_points_down) turn_upside_down(reference->mesh);
   }

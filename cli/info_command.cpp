@@ -7,6 +7,7 @@
 
 #include "common.h"
 #include "options.h"
+#include "output_paths.h"
 #include "wrapatlas/charts.h"
 #include "wrapatlas/model.h"
 
@@ -87,6 +88,10 @@ int run(const InfoArguments& arguments) {
   load_options.texcoord_set = arguments.texcoord;
   const auto model = load_model(arguments.input, load_options);
   if (!model) return report_error(model.error());
+  const OutputPath report_path[] = {{"--json", arguments.json}};
+  if (const Status ok = refuse_overwriting(arguments.input, *model, report_path); !ok) {
+    return report_error(ok.error());
+  }
   const auto set = build_charts(model->mesh);
   const Json charts = set ? describe_charts(*set) : Json();
   if (arguments.json.empty()) {

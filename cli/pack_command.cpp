@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "io/file.h"
+#include "output_paths.h"
 #include "pack_report.h"
 #include "wrapatlas/atlas.h"
 #include "wrapatlas/validate.h"
@@ -52,8 +53,18 @@ Status check_outputs(const PackArguments& arguments) {
     return usage(arguments.output, "OFF and STL files cannot hold UVs",
                  "write .obj, .ply, .gltf or .glb");
   }
-  if (arguments.image.empty()) return Done{};
-  return check_picture_path(arguments.image);
+  if (!arguments.image.empty()) {
+    if (const Status ok = check_picture_path(arguments.image); !ok) return ok;
+  }
+  const OutputPath outputs[] = {
+      {"-o", arguments.output}, {"--image", arguments.image}, {"--json", arguments.json}};
+  return refuse_equal_outputs(outputs);
+}
+
+/// The model may take its own place.
+Status keep_input(const PackArguments& arguments, const Model& model) {
+  const OutputPath outputs[] = {{"--image", arguments.image}, {"--json", arguments.json}};
+  return refuse_overwriting(arguments.input, model, outputs);
 }
 
 /// Packs with a line of progress; Ctrl-C ends it with the best so far.
@@ -103,6 +114,7 @@ int run(const CLI::App& app, PackArguments& arguments) {
   load_options.texcoord_set = arguments.texcoord;
   const auto model = load_model(arguments.input, load_options);
   if (!model) return report_error(model.error());
+  if (const Status ok = keep_input(arguments, *model); !ok) return report_error(ok.error());
   outcome.read = seconds_now() - start;
 
   const double charts_start = seconds_now();

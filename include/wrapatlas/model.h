@@ -39,8 +39,9 @@ class Model {
   FileFormat format = FileFormat::obj;
   std::vector<std::string> remarks;         ///< what was repaired or left aside, one line each
   std::vector<std::string> material_files;  ///< that an OBJ names (mtllib), as written there
-  bool v_points_down = false;               ///< v = 0 is the top row of the texture (glTF)
-  std::unique_ptr<Source> source;           ///< null for formats that cannot hold UVs
+  std::vector<std::filesystem::path> side_files;  ///< that a glTF refers to: buffers and images
+  bool v_points_down = false;                     ///< v = 0 is the top row of the texture (glTF)
+  std::unique_ptr<Source> source;                 ///< null for formats that cannot hold UVs
 };
 
 /// Reads a model. The mesh passes validate_mesh. Errors name file and line (or accessor).

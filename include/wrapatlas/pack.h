@@ -99,8 +99,9 @@ struct Packing {
 /// Packs all charts into one page. Promise (coverage `conservative`): any two charts, and any
 /// chart and its own image under the wrap, are at least `padding` texels apart, and `margin` from
 /// a side that does not wrap. A chart of zero extent is placed like a dot.
-/// Errors: usage (bad options), no_packing (nothing fits at any scale tried), interrupted (stopped
-/// before the first packing). No charts at all is a usage error.
+/// Errors: usage (bad options), input (no chart has an area but for rounding), no_packing (nothing
+/// fits at any scale tried), interrupted (stopped before the first packing). No charts at all is a
+/// usage error.
 /// The same charts and options give the same bits for any number of threads.
 Result<Packing> pack(std::span<const Chart> charts, const PackOptions& options);
 

@@ -1,5 +1,6 @@
 #include "atlas/split_triangle.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace wrapatlas {
@@ -30,10 +31,13 @@ std::vector<TriangleSplitter::Ring> TriangleSplitter::split_along(Ring ring, int
     high = std::max(high, at(node));
   }
   std::vector<Ring> parts;
-  for (double line = std::floor(low) + 1; line < high; ++line) {
+  const double first = std::floor(low) + 1;  // of the lines strictly between low and high
+  const auto lines = static_cast<std::int64_t>(std::max(0.0, std::ceil(high) - first));
+  for (std::int64_t i = 0; i < lines; ++i) {
+    const double line = first + static_cast<double>(i);
     Ring below, above;
-    for (std::size_t i = 0; i < ring.size(); ++i) {
-      const std::uint32_t node = ring[i], next = ring[(i + 1) % ring.size()];
+    for (std::size_t k = 0; k < ring.size(); ++k) {
+      const std::uint32_t node = ring[k], next = ring[(k + 1) % ring.size()];
       if (at(node) <= line) below.push_back(node);
       if (at(node) >= line) above.push_back(node);
       if ((at(node) < line && line < at(next)) || (at(next) < line && line < at(node))) {

@@ -107,6 +107,16 @@ Result<std::string> read_file(const std::filesystem::path& path) {
   return bytes;
 }
 
+bool same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
+  const auto place = [](const std::filesystem::path& path) {
+    std::error_code code;  // on an error: no path, which is checked below
+    const std::filesystem::path full = std::filesystem::absolute(path, code);
+    return code ? full : std::filesystem::weakly_canonical(full, code);
+  };
+  const std::filesystem::path place_a = place(a);
+  return !place_a.empty() && place_a == place(b);
+}
+
 Status write_file(const std::filesystem::path& path, std::string_view bytes) {
   return write_file(path, [bytes](const PutBytes& put) { return put(bytes); });
 }
@@ -117,6 +127,11 @@ Status write_file(const std::filesystem::path& path,
   const auto kind = std::filesystem::status(path, ignored).type();
   const bool in_place =
       kind != std::filesystem::file_type::not_found && kind != std::filesystem::file_type::regular;
+  const auto is_path = [&](const StagedFile& file) { return same_file(file.path, path); };
+  if (staging && !in_place && std::any_of(staged.begin(), staged.end(), is_path)) {
+    return Error{ErrorKind::usage, path.string(), "two outputs have this name",
+                 "give each output a name of its own"};
+  }
   std::string temporary = path.string();
   const int descriptor =
       in_place ? ::open(path.c_str(), O_WRONLY | O_CLOEXEC) : create_beside(path, temporary);

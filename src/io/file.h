@@ -18,6 +18,10 @@ Result<std::string> read_file(const std::filesystem::path& path);
 /// was. A path that exists and is no regular file (/dev/stdout, a pipe) is written to directly.
 Status write_file(const std::filesystem::path& path, std::string_view bytes);
 
+/// Whether both paths lead to one place, also where there is nothing yet. A matter of names and
+/// symbolic links: hard links are places of their own, since write_file parts them.
+bool same_file(const std::filesystem::path& a, const std::filesystem::path& b);
+
 /// Takes the next piece of a file.
 using PutBytes = std::function<Status(std::string_view)>;
 
@@ -28,7 +32,8 @@ Status write_file(const std::filesystem::path& path,
 
 /// Several files that appear together or not at all. While one lives on a thread, write_file on
 /// that thread only prepares its file; commit() renames all of them into place, and destruction
-/// without it removes them. One begun within another joins it: its commit() does nothing.
+/// without it removes them. One begun within another joins it: its commit() does nothing. A second
+/// file of the same name is a usage error.
 class OutputTransaction {
  public:
   OutputTransaction();

@@ -125,17 +125,24 @@ double decoded(const char* bytes, bool normalized) {
   return std::max(number / static_cast<double>(std::numeric_limits<T>::max()), -1.0);
 }
 
+/// What a float attribute of the same value holds: vertices of primitives with floats and of such
+/// with integers meet, and so do those that a cut made floats of.
+template <typename T>
+double coordinate(const char* bytes, bool normalized) {
+  return double{static_cast<float>(decoded<T>(bytes, normalized))};
+}
+
 template <typename T, typename Point>
 Status append_points(const GltfFile& file, const GltfAccessor& accessor,
                      std::vector<Point>& points) {
   for (std::size_t i = 0; i < accessor.count; ++i) {
     const char* element = accessor.element(i);
     Point point{};
-    point.x = decoded<T>(element, accessor.normalized);
-    point.y = decoded<T>(element + sizeof(T), accessor.normalized);
+    point.x = coordinate<T>(element, accessor.normalized);
+    point.y = coordinate<T>(element + sizeof(T), accessor.normalized);
     bool usable = std::abs(point.x) < 1e30 && std::abs(point.y) < 1e30;
     if constexpr (std::is_same_v<Point, Vec3>) {
-      point.z = decoded<T>(element + 2 * sizeof(T), accessor.normalized);
+      point.z = coordinate<T>(element + 2 * sizeof(T), accessor.normalized);
       usable = usable && std::abs(point.z) < 1e30;
     }
     if (!usable) {

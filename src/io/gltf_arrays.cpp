@@ -12,6 +12,7 @@ namespace {
 
 constexpr const char* kDraco = "KHR_draco_mesh_compression";
 constexpr const char* kManifold = "EXT_mesh_manifold";
+constexpr const char* kQuantization = "KHR_mesh_quantization";
 
 template <typename T>
 std::string packed_as(const std::vector<std::uint32_t>& indices) {
@@ -41,8 +42,9 @@ class Extender {
       if (!is_target && name == contents_.texcoord_name) continue;
       const Result<GltfAccessor> accessor = open_accessor(contents_.file, *as_integer(index));
       if (!accessor) return accessor.error();
-      arrays.push_back(
-          {name, *accessor, extended_attribute(*accessor, name, is_target, layer_.extra())});
+      const GltfAccessor format = extended_format(*accessor, name, layer_.extra());
+      arrays.push_back({name, *accessor, format,
+                        extended_attribute(*accessor, format, name, is_target, layer_.extra())});
     }
     if (!is_target) blend_skins(arrays);
     for (Attribute& array : arrays) attributes[array.name] = add(array);
@@ -52,8 +54,8 @@ class Extender {
  private:
   struct Attribute {
     std::string name;
-    GltfAccessor accessor;
-    std::string bytes;
+    GltfAccessor accessor, format;
+    std::string bytes;  ///< in that format
   };
 
   void blend_skins(std::vector<Attribute>& arrays) const {
@@ -77,13 +79,17 @@ class Extender {
     Json json = edit_.json["accessors"][array.accessor.index];
     json.erase("byteOffset");
     json.erase("sparse");
-    const std::size_t stride = padded_stride(array.accessor);
+    const std::size_t stride = padded_stride(array.format);
+    if (array.format.component != array.accessor.component) {
+      json["componentType"] = static_cast<int>(array.format.component);
+      json.erase("normalized");
+    }
     json["count"] = array.bytes.size() / stride;
     if (array.name == "POSITION" || json.contains("min") || json.contains("max")) {
-      set_bounds(json, array.accessor, array.bytes, stride);
+      set_bounds(json, array.format, array.bytes, stride);
     }
     return edit_.add_accessor(std::move(json), std::move(array.bytes),
-                              stride == array.accessor.element_size ? 0 : stride,
+                              stride == array.format.element_size ? 0 : stride,
                               GltfTarget::vertices);
   }
 
@@ -194,6 +200,10 @@ Status write_arrays(const GltfContents& contents, const GltfPlans& plans, GltfEd
   }
   if (draco) unlist_extension(edit.json, kDraco);
   if (manifold) unlist_extension(edit.json, kManifold);
+  // It is no object of the file, so what is listed has to be known from the types.
+  if (needs_quantization(contents.file.json) && !needs_quantization(edit.json)) {
+    unlist_extension(edit.json, kQuantization);
+  }
   return Done{};
 }
 

@@ -29,11 +29,23 @@ void normalize(std::array<double, 16>& values) {
   for (std::size_t c = 0; c < 3; ++c) values[c] /= size;
 }
 
-void blend_element(const GltfAccessor& accessor, Rule rule, const GltfBlend& blend, char* out) {
+void copy_element(const GltfAccessor& accessor, const GltfAccessor& format, std::size_t i,
+                  char* out) {
+  const char* element = accessor.element(i);
+  if (format.component == accessor.component) {
+    std::memcpy(out, element, accessor.element_size);
+    return;
+  }
+  for (std::size_t c = 0; c < accessor.components; ++c) {
+    format.store(out, c, accessor.value(element, c));
+  }
+}
+
+void blend_element(const GltfAccessor& accessor, const GltfAccessor& format, Rule rule,
+                   const GltfBlend& blend, char* out) {
   if (rule == Rule::nearest) {
     const auto heaviest = std::max_element(blend.weights.begin(), blend.weights.end());
-    const std::uint32_t vertex = blend.vertices[heaviest - blend.weights.begin()];
-    std::memcpy(out, accessor.element(vertex), accessor.element_size);
+    copy_element(accessor, format, blend.vertices[heaviest - blend.weights.begin()], out);
     return;
   }
   std::array<double, 16> values{};
@@ -49,7 +61,7 @@ void blend_element(const GltfAccessor& accessor, Rule rule, const GltfBlend& ble
   if (rule == Rule::unit_with_sign) {
     values[3] = accessor.value(accessor.element(blend.vertices[0]), 3);
   }
-  for (std::size_t c = 0; c < accessor.components; ++c) accessor.store(out, c, values[c]);
+  for (std::size_t c = 0; c < accessor.components; ++c) format.store(out, c, values[c]);
 }
 
 struct Influence {
@@ -109,20 +121,34 @@ std::size_t padded_stride(const GltfAccessor& accessor) {
   return (accessor.element_size + 3) / 4 * 4;
 }
 
-std::string extended_attribute(const GltfAccessor& accessor, const std::string& semantic,
-                               bool is_target, const GltfExtraVertices& extra) {
-  const std::size_t stride = padded_stride(accessor);
+GltfAccessor extended_format(const GltfAccessor& accessor, const std::string& semantic,
+                             const GltfExtraVertices& extra) {
+  GltfAccessor format = accessor;
+  format.count = format.sparse_count = 0;
+  format.data = nullptr;
+  const bool exact = semantic == "POSITION" || semantic.starts_with("TEXCOORD_");
+  if (!exact || extra.blends.empty() || accessor.matrix) return format;
+  format.component = GltfComponent::f32;
+  format.normalized = false;
+  format.element_size = accessor.components * component_size(format.component);
+  return format;
+}
+
+std::string extended_attribute(const GltfAccessor& accessor, const GltfAccessor& format,
+                               const std::string& semantic, bool is_target,
+                               const GltfExtraVertices& extra) {
+  const std::size_t stride = padded_stride(format);
   std::string bytes((accessor.count + extra.vertices.size()) * stride, '\0');
   char* out = bytes.data();
   for (std::size_t i = 0; i < accessor.count; ++i, out += stride) {
-    std::memcpy(out, accessor.element(i), accessor.element_size);
+    copy_element(accessor, format, i, out);
   }
   const Rule rule = rule_for(accessor, semantic, is_target);
   for (const GltfExtraVertex& vertex : extra.vertices) {
     if (vertex.source != kNone) {
-      std::memcpy(out, accessor.element(vertex.source), accessor.element_size);
+      copy_element(accessor, format, vertex.source, out);
     } else {
-      blend_element(accessor, rule, extra.blends[vertex.blend], out);
+      blend_element(accessor, format, rule, extra.blends[vertex.blend], out);
     }
     out += stride;
   }

@@ -33,10 +33,18 @@ struct GltfExtraVertices {
 /// attributes must be.
 std::size_t padded_stride(const GltfAccessor& accessor);
 
-/// All elements of the accessor, and then those of the extra vertices. `semantic` ("NORMAL",
-/// "_TEMPERATURE" ...) says how to blend; deltas of morph targets are plain sums.
-std::string extended_attribute(const GltfAccessor& accessor, const std::string& semantic,
-                               bool is_target, const GltfExtraVertices& extra);
+/// What the extended attribute is stored as: floats where points between the vertices would move
+/// the surface or UVs if they were rounded to integers, else what the accessor has. It has no
+/// elements, only their type.
+GltfAccessor extended_format(const GltfAccessor& accessor, const std::string& semantic,
+                             const GltfExtraVertices& extra);
+
+/// All elements of the accessor, and then those of the extra vertices, as `format` says.
+/// `semantic` ("NORMAL", "_TEMPERATURE" ...) says how to blend; deltas of morph targets are plain
+/// sums.
+std::string extended_attribute(const GltfAccessor& accessor, const GltfAccessor& format,
+                               const std::string& semantic, bool is_target,
+                               const GltfExtraVertices& extra);
 
 /// The influences of joints on a vertex, JOINTS_n and WEIGHTS_n of all n together: blended by
 /// adding up per joint, keeping the heaviest and scaling to a sum of 1. Overwrites the blended

@@ -7,6 +7,8 @@
 namespace wrapatlas {
 namespace {
 
+constexpr std::string_view kZeros("\0\0\0\0\0\0\0\0", 8);
+
 void mark(std::vector<bool>& live, const Json& index) {
   const auto number = as_integer(index);
   if (number && *number < live.size()) live[*number] = true;
@@ -50,7 +52,6 @@ std::vector<bool> live_views(const Json& json) {
 }  // namespace
 
 void GltfPieces::pad(std::uint64_t alignment, std::uint64_t remainder) {
-  static constexpr std::string_view kZeros("\0\0\0\0\0\0\0\0", 8);
   add(kZeros.substr(0, (alignment + remainder - size % alignment) % alignment));
 }
 
@@ -180,9 +181,30 @@ void GltfEdit::lay_out(const std::vector<bool>& view_died) {
     view["byteOffset"] = buffers_[target].size;
     buffers_[target].add(added.bytes());
   }
+  drop_empty_buffers();
   for (std::uint64_t b = 0; b < buffers_.size(); ++b) {
     if (storage_[b] != GltfBuffer::Storage::absent)
       json["buffers"][b]["byteLength"] = buffers_[b].size;
+  }
+}
+
+/// A buffer must not be empty. Those at the end go; others stay, so that no buffer is renumbered.
+void GltfEdit::drop_empty_buffers() {
+  const auto is_empty = [&](std::size_t b) {
+    return storage_[b] != GltfBuffer::Storage::absent && buffers_[b].size == 0;
+  };
+  std::vector<bool> named(buffers_.size());  // by an extension, as far as we can tell
+  for_each_extension_integer(json, [&](std::uint64_t i) {
+    if (i < named.size()) named[i] = true;
+  });
+  while (!buffers_.empty() && is_empty(buffers_.size() - 1) && !named[buffers_.size() - 1]) {
+    buffers_.pop_back();
+    storage_.pop_back();
+    json["buffers"].erase(buffers_.size());
+  }
+  if (buffers_.empty()) json.erase("buffers");
+  for (std::size_t b = 0; b < buffers_.size(); ++b) {
+    if (is_empty(b)) buffers_[b].add(kZeros.substr(0, 4));
   }
 }
 

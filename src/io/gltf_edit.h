@@ -73,6 +73,7 @@ class GltfEdit {
   std::vector<std::uint64_t> move_into(const char* directory, std::uint64_t first_new,
                                        std::vector<std::uint64_t> dead);
   void lay_out(const std::vector<bool>& view_died);
+  void drop_empty_buffers();
   void copy_live_ranges(std::uint64_t buffer, const std::vector<bool>& view_died);
 
   const GltfFile& file_;

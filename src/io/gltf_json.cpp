@@ -99,6 +99,10 @@ const Json& array_member(const Json& value, const char* key) {
 std::optional<std::uint64_t> as_integer(const Json& value) {
   constexpr double kExact = 9007199254740992.0;  // 2^53
   if (value.is_number_unsigned()) return value.get<std::uint64_t>();
+  if (value.is_number_integer()) {  // read: negative; made by our code: any
+    const auto number = value.get<std::int64_t>();
+    return number < 0 ? std::nullopt : std::optional(static_cast<std::uint64_t>(number));
+  }
   if (!value.is_number_float()) return std::nullopt;
   const double number = value.get<double>();
   if (!(number >= 0 && number <= kExact) || std::floor(number) != number) return std::nullopt;

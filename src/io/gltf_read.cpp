@@ -7,6 +7,22 @@
 #include "io/gltf_primitives.h"
 
 namespace wrapatlas {
+namespace {
+
+std::vector<std::filesystem::path> files_beside(const GltfFile& file) {
+  std::vector<std::filesystem::path> paths;
+  for (const GltfSideFile& buffer : file.side_files) paths.push_back(buffer.path);
+  for (const Json& image : array_member(file.json, "images")) {
+    const Json* uri = find_member(image, "uri");
+    if (uri == nullptr || !uri->is_string()) continue;
+    const auto& text = uri->get_ref<const std::string&>();
+    if (text.starts_with("data:") || !is_plain_relative_uri(text)) continue;
+    if (const auto name = percent_decode(text)) paths.push_back(file.folder / *name);
+  }
+  return paths;
+}
+
+}  // namespace
 
 Result<Model> read_gltf(std::string bytes, bool binary, std::string_view name,
                         const std::filesystem::path& base, const LoadOptions& options) {
@@ -31,6 +47,7 @@ Result<Model> read_gltf(std::string bytes, bool binary, std::string_view name,
     return contents->file.error("", "it has no triangles", "export a model with faces");
   }
   remark_on_textures(*contents, model.remarks);
+  model.side_files = files_beside(contents->file);
   model.source = make_gltf_source(std::move(contents));
   return model;
 }

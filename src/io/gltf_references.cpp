@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <string_view>
 
+#include "io/gltf_accessor.h"
+
 namespace wrapatlas {
 namespace {
 
@@ -21,6 +23,28 @@ void visit_integers(const Json& value, const std::function<void(std::uint64_t)>&
   } else if (const auto number = as_integer(value)) {
     visit(*number);
   }
+}
+
+bool is_quantized(const Json& accessors, const std::string& name, const Json& index) {
+  const auto number = as_integer(index);
+  if (!number || *number >= accessors.size()) return false;
+  const Json& accessor = accessors[*number];
+  const auto component =
+      static_cast<GltfComponent>(integer_member(accessor, "componentType", 0).value_or(0));
+  if (component == GltfComponent::f32) return false;
+  if (name == "POSITION" || name == "NORMAL" || name == "TANGENT") return true;
+  if (!name.starts_with("TEXCOORD_")) return false;
+  const Json* normalized = find_member(accessor, "normalized");
+  const bool is_signed = component == GltfComponent::i8 || component == GltfComponent::i16;
+  return is_signed || normalized == nullptr || *normalized != true;
+}
+
+bool is_any_quantized(const Json& accessors, const Json& attributes) {
+  if (!attributes.is_object()) return false;
+  for (const auto& [name, index] : attributes.items()) {
+    if (is_quantized(accessors, name, index)) return true;
+  }
+  return false;
 }
 
 bool is_used(const Json& value, const std::string& extension) {
@@ -42,6 +66,20 @@ void for_each_extension_integer(const Json& value,
     }
   }
   for (const Json& member : value) for_each_extension_integer(member, visit);
+}
+
+bool needs_quantization(const Json& json) {
+  const Json& accessors = array_member(json, "accessors");
+  for (const Json& mesh : array_member(json, "meshes")) {
+    for (const Json& primitive : array_member(mesh, "primitives")) {
+      const Json* attributes = find_member(primitive, "attributes");
+      if (attributes != nullptr && is_any_quantized(accessors, *attributes)) return true;
+      for (const Json& target : array_member(primitive, "targets")) {
+        if (is_any_quantized(accessors, target)) return true;
+      }
+    }
+  }
+  return false;
 }
 
 bool remove_extension(Json& object, const char* extension) {

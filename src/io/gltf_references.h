@@ -64,6 +64,9 @@ void for_each_view_use(J& accessor, const Visit& visit) {
 /// or buffer views, wherever they are.
 void for_each_extension_integer(const Json& value, const std::function<void(std::uint64_t)>& visit);
 
+/// Whether a vertex attribute has a type that only KHR_mesh_quantization allows.
+bool needs_quantization(const Json& json);
+
 /// Removes `extension` from the object's extensions; true if it was there.
 bool remove_extension(Json& object, const char* extension);
 

@@ -17,11 +17,6 @@ void add_little_endian(std::string& bytes, std::uint64_t value) {
   for (int shift = 0; shift < 32; shift += 8) bytes += static_cast<char>(value >> shift & 255U);
 }
 
-bool same_place(const fs::path& a, const fs::path& b) {
-  std::error_code code;
-  return fs::weakly_canonical(a, code) == fs::weakly_canonical(b, code);
-}
-
 class Saver {
  public:
   Saver(const GltfFile& file, GltfEdit& edit, const fs::path& path, bool binary)
@@ -43,7 +38,7 @@ class Saver {
     std::error_code code;
     const fs::path from = fs::absolute(file_.folder.empty() ? "." : file_.folder, code);
     const fs::path to = fs::absolute(path_, code).parent_path();
-    if (code || same_place(from, to) || !edit_.json.contains("images")) return;
+    if (code || same_file(from, to) || !edit_.json.contains("images")) return;
     for (Json& image : edit_.json["images"]) {
       const Json* uri = find_member(image, "uri");
       if (uri == nullptr || !uri->is_string()) continue;
@@ -58,7 +53,7 @@ class Saver {
 
   [[nodiscard]] bool is_of_source(const fs::path& path) const {
     return std::any_of(file_.side_files.begin(), file_.side_files.end(),
-                       [&](const GltfSideFile& side) { return same_place(side.path, path); });
+                       [&](const GltfSideFile& side) { return same_file(side.path, path); });
   }
 
   fs::path next_side_file() {

@@ -135,6 +135,8 @@ class ObjReader {
 
   bool read_face(ObjWords& words) {
     const std::size_t begin = mesh_.corner_position.size();
+    std::string_view open_ended;  // the last corner that is
+    std::size_t open_ends = 0;
     for (std::string_view word = words.next(); !word.empty(); word = words.next()) {
       const ObjCorner corner = split_corner(word);
       std::uint32_t position = 0, texcoord = kNone, normal = 0;
@@ -149,6 +151,10 @@ class ObjReader {
           face_of_last_normal_ = mesh_.face_count();
         }
       }
+      if (word.ends_with('/')) {
+        open_ended = word;
+        ++open_ends;
+      }
       mesh_.corner_position.push_back(position);
       mesh_.corner_texcoord.push_back(texcoord);
     }
@@ -158,6 +164,11 @@ class ObjReader {
                   "remove the face");
     }
     if (corners >= kNone) return fail("there are too many faces", "split the file");
+    // Some programs write "1/" or "1//" where there is no more to say, but then in all corners.
+    if (open_ends != 0 && open_ends != corners - begin) {
+      return fail(fmt::format("nothing follows the slash of '{}'", open_ended.substr(0, 40)),
+                  "the file is damaged or cut off: copy or export it again");
+    }
     mesh_.face_begin.push_back(static_cast<std::uint32_t>(corners));
     return true;
   }

@@ -49,6 +49,13 @@ void weld(Mesh& mesh) {
   mesh.corner_position = std::move(number);
 }
 
+/// Text has no zeros. A binary header is filled up with them; if it is not, the count behind it has
+/// one for
+/// all but huge files.
+bool has_binary_header(std::string_view bytes) {
+  return bytes.substr(0, kHeaderBytes).find('\0') != std::string_view::npos;
+}
+
 Result<Model> read_binary(std::string_view bytes, std::string_view name) {
   const std::size_t count = little_u32(bytes.data() + 80);
   if (count >= kNone / 3) {
@@ -153,10 +160,14 @@ Result<Model> read_stl(std::string bytes, std::string_view name) {
   const std::size_t wanted =
       size < kHeaderBytes ? 0 : kHeaderBytes + kTriangleBytes * little_u32(bytes.data() + 80);
   if (wanted != 0 && size == wanted) return read_binary(bytes, name);
-  if (is_word(TextWords(bytes).next(), "solid")) return TextStlReader(bytes, name).read();
+  if (is_word(TextWords(bytes).next(), "solid")) {
+    Result<Model> text = TextStlReader(bytes, name).read();
+    const bool has_faces = text && text->mesh.face_count() > 0;
+    if (has_faces || !has_binary_header(bytes)) return text;
+  }
   if (wanted != 0 && size > wanted) return read_binary(bytes, name);
   return Error{ErrorKind::input, std::string(name),
-               wanted == 0 ? "the file is no STL: too short, and it does not begin with 'solid'"
+               wanted == 0 ? "the file is no STL: too short, and no text that begins with 'solid'"
                            : fmt::format("a binary STL of this many triangles has {} bytes, the "
                                          "file has {}",
                                          wanted, size),

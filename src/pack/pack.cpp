@@ -88,6 +88,12 @@ std::vector<double> chart_angles(const Chart& chart, const PackOptions& options)
   return angles;
 }
 
+/// Whether the chart is a line but for rounding. Charts a little wider than this can be packed.
+bool is_line(const Chart& chart) {
+  constexpr double kThinnest = 1e-8;
+  return !(chart.area > kThinnest * chart.max_radius * chart.max_radius);
+}
+
 PlaceFunction place_function(Method method) {
   switch (method) {
     case Method::lprm02:
@@ -318,8 +324,8 @@ Result<Packing> pack(std::span<const Chart> charts, const PackOptions& options) 
   if (charts.empty()) return usage("there are no charts to pack", "give at least one");
   double area = 0;
   for (const Chart& chart : charts) area += chart.area;
-  if (!(area > 0) || !std::isfinite(area)) {
-    return Error{ErrorKind::input, "charts", "their total area is zero or not finite",
+  if (std::all_of(charts.begin(), charts.end(), is_line) || !std::isfinite(area)) {
+    return Error{ErrorKind::input, "charts", "they have no area, or none that is finite",
                  "unwrap the mesh again: its UVs are collapsed"};
   }
   if (options.method == Method::guided) return pack_guided(charts, options, pack_by_scales);

@@ -5,7 +5,7 @@ import json
 import math
 import struct
 
-FORMS = {5121: "B", 5123: "H", 5125: "I", 5126: "f"}
+FORMS = {5120: "b", 5121: "B", 5122: "h", 5123: "H", 5125: "I", 5126: "f"}
 PNG = base64.b64decode(  # one white pixel
     "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAAAAAA6fptVAAAACklEQVR4nGP4DwABAQEAsTj2kgAAAABJRU5ErkJggg==")
 
@@ -203,6 +203,26 @@ def normalized_uvs():
     return maker
 
 
+def quantized(positions=5122, normalized=True, normals=False):
+    """Positions, UVs and at will normals as integers, at a coarseness that rounding shows at."""
+    maker, can = GltfMaker(), Can()
+    one = {5120: 127, 5121: 255, 5122: 32767, 5123: 65535}[positions]
+    size = one if normalized else 100
+    rows = [tuple(round(size * c) for c in ((x + 1) / 2, y / 2, (z + 1) / 2))
+            for x, y, z in can.positions]
+    attributes = {"POSITION": maker.accessor(
+        rows, positions, normalized=normalized, min=list(map(min, zip(*rows))),
+        max=list(map(max, zip(*rows))))}
+    if normals:
+        attributes["NORMAL"] = maker.accessor(
+            [tuple(round(127 * c) for c in row) for row in can.normals], 5120, normalized=True)
+    attributes["TEXCOORD_0"] = maker.accessor(
+        [tuple(round(32767 * x) for x in uv) for uv in can.uvs], 5122, normalized=True)
+    maker.node(mesh=maker.mesh({"attributes": attributes, "indices": maker.indices(can.corners())}))
+    maker.json["extensionsUsed"] = maker.json["extensionsRequired"] = ["KHR_mesh_quantization"]
+    return maker
+
+
 def two_uv_sets():
     maker, can = GltfMaker(), Can()
     attributes = can.attributes(maker)
@@ -224,5 +244,7 @@ def strip_and_fan():
 MODELS = {"plain": plain, "bytes": lambda: plain(5121), "words": lambda: plain(5125),
           "unindexed": unindexed, "textured": textured,
           "transformed": lambda: textured(transform=True), "skinned": skinned, "morphed": morphed,
-          "instanced": instanced, "normalized": normalized_uvs, "two_uv_sets": two_uv_sets,
+          "instanced": instanced, "normalized": normalized_uvs, "quantized": quantized,
+          "quantized_words": lambda: quantized(5123, False),
+          "quantized_bytes": lambda: quantized(5120, True, normals=True), "two_uv_sets": two_uv_sets,
           "strip_and_fan": strip_and_fan}

@@ -41,6 +41,7 @@ class BrokenFiles(support.CommandTest):
     def test_cut_off_obj(self):
         self.refuse_file("a.obj", GOOD[: GOOD.index("v 1 0 0") + 5], "a.obj:2", "missing")
         self.refuse_file("a.obj", GOOD[: GOOD.rindex("f ") + 7], "a.obj:18", "three corners")
+        self.refuse_file("a.obj", GOOD[: GOOD.rindex("/") + 1], "a.obj:18", "nothing follows")
         self.refuse_file("a.obj", GOOD[: GOOD.index("f ")], "no faces")
 
     def test_cut_off_off(self):
@@ -60,6 +61,7 @@ class BrokenFiles(support.CommandTest):
         self.refuse_file("a.stl", STL[:60], "a.stl")
         for size in (50, 90, len(BINARY_STL) - 1):
             self.refuse_file("a.stl", BINARY_STL[:size], "a.stl", "cut short")
+            self.refuse_file("a.stl", (b"solid a" + BINARY_STL[7:])[:size], "a.stl", "cut short")
 
     def test_cut_off_gltf(self):
         document, binary = gltf()

@@ -1,5 +1,6 @@
 """Every glTF that the command writes is free of errors in the eyes of the Khronos validator."""
 
+import json
 import pathlib
 import shutil
 import subprocess
@@ -53,6 +54,28 @@ class ValidatorTest(support.CommandTest):
                         self.assertTrue(self.check(out, source, "--wrap", wrap)["ok"])
                         names.append(out)
         self.validate(*names)
+
+    def test_uvs_in_a_buffer_of_their_own(self):
+        """All that was in that buffer is replaced, and an empty one is not allowed."""
+        maker = gltf_maker.plain()
+        uvs = maker.json["accessors"][2]["bufferView"]
+        view = maker.json["bufferViews"][uvs]
+        end = view["byteOffset"] + view["byteLength"]
+        self.write("a0.bin", bytes(maker.binary))
+        self.write("a1.bin", bytes(maker.binary[view["byteOffset"]:end]))
+        buffers = [{"byteLength": len(maker.binary), "uri": "a0.bin"},
+                   {"byteLength": view["byteLength"], "uri": "a1.bin"}]
+        view.update(buffer=1, byteOffset=0)
+        self.write("a.gltf", json.dumps({**maker.json, "buffers": buffers}))
+        names = ["a.gltf"]
+        for export in ("continuous", "cut"):
+            for ending in ("gltf", "glb"):
+                names.append(f"b_{export}.{ending}")
+                self.pack("a.gltf", names[-1], "--export", export)
+                self.succeed("info", names[-1])
+        self.validate(*names)
+        self.assertEqual(sorted(path.name for path in self.folder.glob("*.bin")),
+                         ["a0.bin", "a1.bin", "b_continuous.bin", "b_cut.bin"])
 
     def test_second_uv_set(self):
         self.write("a.glb", gltf_maker.two_uv_sets().glb())

@@ -37,6 +37,12 @@ class Repairs(support.CommandTest):
         lines = [f"v {u} {v} 0\nvt {u} {v}" for u, v in points]
         self.pack_and_check("\n".join(lines) + "\nf 1/1 5/5 2/2\nf 1/1 2/2 3/3\nf 1/1 3/3 4/4\n")
 
+    def test_nothing_but_lines(self):
+        """A chart that is collinear but for rounding is no reason to ask for more texels."""
+        for line in ([(0, 0), (0.5, 0), (1, 0)], [(0.1, 0.2), (0.3, 0.4), (0.4, 0.5)]):
+            self.write("a.obj", obj([line]))
+            self.refuse_pack(3, ("a.obj", "no area", "collapsed"), "a.obj")
+
     def test_mirrored_charts(self):
         bend = [(0, 0), (3, 0), (3, 1), (1, 1), (1, 3), (0, 3)]
         mirrored = [(8 - u, v) for u, v in bend]

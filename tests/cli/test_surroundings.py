@@ -6,6 +6,7 @@ import shutil
 import subprocess
 import unittest
 
+import gltf_maker
 import support
 from small_files import GOOD
 from support import COMMAND, obj, quick, square
@@ -148,6 +149,60 @@ class AllOutputsOrNone(support.CommandTest):
         self.path("b.gltf").mkdir()
         self.write("b.bin", b"older")
         self.refuse(3, ("b.gltf", "cannot write"), "pack", "a.obj", "-o", "b.gltf", *quick())
+
+
+class OutputsApart(support.CommandTest):
+    """No output may take the place of another one, or of what is read; only the model may."""
+
+    def setUp(self):
+        super().setUp()
+        self.write("a.obj", "mtllib a.mtl\n" + GOOD)
+        self.write("a.mtl", "newmtl m\n")
+        (self.folder / "sub").mkdir()
+
+    def test_two_outputs_of_one_name(self):
+        pack = ("pack", "a.obj", *quick())
+        for outputs in (("-o", "b.obj", "--json", "b.obj"),
+                        ("-o", "a.obj", "--json", "a.obj"),
+                        ("-o", "b.obj", "--image", "c.svg", "--json", "c.svg"),
+                        ("-o", "b.obj", "--image", "sub/c.svg", "--json", "./sub/../sub/c.svg"),
+                        ("-o", "b.obj", "--json", self.folder / "b.obj")):
+            self.refuse(2, ("names the same file", "a name of its own"), *pack, *outputs)
+        self.write("b.obj", "older\n")
+        os.symlink("b.obj", self.path("link.obj"))
+        self.refuse(2, ("--json b.obj", "-o names the same file"), *pack, "-o", "link.obj",
+                    "--json", "b.obj")
+
+    def test_report_and_bin(self):
+        self.write("a.glb", gltf_maker.plain().glb())
+        self.refuse(2, ("b.bin", "two outputs"), "pack", "a.glb", "-o", "b.gltf", "--quiet",
+                    "--json", "./b.bin", *quick())
+
+    def test_inputs_are_kept(self):
+        pack = ("pack", "a.obj", "-o", "b.obj", *quick())
+        self.refuse(2, ("--json a.obj", "overwrite the input"), *pack, "--json", "a.obj")
+        self.refuse(2, ("a.mtl", "a file of the input"), *pack, "--json", "./a.mtl")
+        self.refuse(2, ("overwrite the input",), "info", "a.obj", "--json", "sub/../a.obj")
+        self.pack("a.obj", "b.obj")
+        for report in ("a.obj", "b.obj"):
+            self.refuse(2, (report, "overwrite the input"), "check", "b.obj", "--ref", "a.obj",
+                        "--json", report)
+
+    def test_files_of_a_gltf_are_kept(self):
+        maker = gltf_maker.textured()
+        maker.json["images"] = [{"uri": "a%20b.png"}]
+        self.write("a b.png", gltf_maker.PNG)
+        self.write("a.bin", bytes(maker.binary))
+        self.write("a.gltf", maker.document("a.bin"))
+        pack = ("pack", "a.gltf", "-o", "sub/b.gltf", *quick())
+        self.refuse(2, ("a.bin", "a file of the input"), *pack, "--json", "a.bin")
+        self.refuse(2, ("a b.png", "a file of the input"), *pack, "--image", "a b.png")
+        self.succeed(*pack, "--image", "sub/a b.png")
+
+    def test_what_may_be_equal(self):
+        self.pack("a.obj", "a.obj", "--json", "-")
+        self.pack("a.obj", "a.obj", "--json", "/dev/null", "--image", "a.svg")
+        self.succeed("info", "a.obj", "--json", "/dev/stdout")
 
 
 if __name__ == "__main__":

@@ -70,6 +70,29 @@ TEST_F(FileTest, FolderIsNotAFile) {
   EXPECT_EQ(read.error().kind, ErrorKind::input);
 }
 
+TEST_F(FileTest, NamesOfTheSameFile) {
+  ASSERT_TRUE(write_file(folder_ / "a", ""));
+  fs::create_directory(folder_ / "sub");
+  fs::create_symlink(folder_ / "a", folder_ / "link");
+  fs::create_directory_symlink(folder_ / "sub", folder_ / "other");
+  EXPECT_TRUE(same_file(folder_ / "a", folder_ / "sub" / ".." / "a"));
+  EXPECT_TRUE(same_file(folder_ / "a", folder_ / "link"));
+  EXPECT_TRUE(same_file(folder_ / "sub" / "new", folder_ / "other" / "." / "new"));
+  EXPECT_TRUE(same_file("new", "./new")) << "in the folder of the program";
+  EXPECT_TRUE(same_file("new", fs::current_path() / "new"));
+  EXPECT_FALSE(same_file(folder_ / "a", folder_ / "b"));
+  EXPECT_FALSE(same_file(folder_ / "new", folder_ / "sub" / "new"));
+  EXPECT_FALSE(same_file("", ""));
+}
+
+TEST_F(FileTest, TransactionRefusesTwoFilesOfOneName) {
+  OutputTransaction files;
+  ASSERT_TRUE(write_file(folder_ / "a", "first"));
+  const Status second = write_file(folder_ / "." / "a", "second");
+  ASSERT_FALSE(second);
+  EXPECT_EQ(second.error().kind, ErrorKind::usage);
+}
+
 TEST_F(FileTest, TransactionIsAllOrNothing) {
   ASSERT_TRUE(write_file(folder_ / "a", "old"));
   {

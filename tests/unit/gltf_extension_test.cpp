@@ -43,6 +43,77 @@ TEST(GltfExtensions, OptionalMeshoptIsReplacedByItsFallback) {
   EXPECT_FALSE(json.contains("extensionsUsed"));
 }
 
+/// The cube with each of its views in a buffer of its own, the UVs' in the last one, and with UVs
+/// that make no vertices; saved as text.
+Json saved_from_buffers(GltfBuilder builder, const std::string& name) {
+  Json& json = builder.json;
+  const Json views = json["bufferViews"];
+  const std::size_t places[] = {0, 2, 1};
+  for (std::size_t b = 0; b < views.size(); ++b) {
+    const auto begin = views[places[b]]["byteOffset"].get<std::size_t>();
+    const auto length = views[places[b]]["byteLength"].get<std::size_t>();
+    json["buffers"].push_back({{"byteLength", length},
+                               {"uri", "data:application/octet-stream;base64," +
+                                           base64_encode(builder.bin.substr(begin, length))}});
+    json["bufferViews"][places[b]]["buffer"] = b;
+    json["bufferViews"][places[b]]["byteOffset"] = 0;
+  }
+  const auto model = read_gltf(json.dump(), false, "in.gltf", "/nonexistent/in", {});
+  EXPECT_TRUE(model) << model.error().message();
+  if (!model) return {};
+  const AtlasMesh atlas = atlas_with(model->mesh, [](std::size_t, std::size_t) {
+    return Vec2{0.25, 0.5};
+  });
+  EXPECT_TRUE(model->source->save(output_path(name), model->mesh, atlas));
+  return reopen(output_path(name)).json;
+}
+
+TEST(GltfBuffers, EmptyOnesAtTheEndGo) {
+  const Json json = saved_from_buffers(cube(), "emptied.gltf");
+  ASSERT_EQ(json["buffers"].size(), 2U);
+  EXPECT_EQ(json["buffers"][0]["byteLength"], 96 + 64);
+  EXPECT_EQ(json["buffers"][1]["byteLength"], 72);
+}
+
+TEST(GltfBuffers, EmptyOnesThatAnExtensionMayNameStay) {
+  GltfBuilder builder = cube();
+  builder.json["extensions"]["VENDOR_something"] = {{"number", 2}};
+  const Json json = saved_from_buffers(builder, "named.gltf");
+  ASSERT_EQ(json["buffers"].size(), 3U);
+  EXPECT_EQ(json["buffers"][2]["byteLength"], 4);
+}
+
+TEST(GltfExtensions, FallbackBuffersGoWithTheCompression) {
+  GltfBuilder builder = cube();
+  Json& json = builder.json;
+  const std::string packed(16, 'c');
+  const auto uri = [](const std::string& bytes) {
+    return "data:application/octet-stream;base64," + base64_encode(bytes);
+  };
+  json["buffers"] = {{{"byteLength", 16}, {"uri", uri(packed)}},
+                     {{"byteLength", builder.bin.size()},
+                      {"uri", uri(builder.bin)},
+                      {"extensions", {{"EXT_meshopt_compression", {{"fallback", true}}}}}}};
+  for (Json& view : json["bufferViews"]) {
+    view["buffer"] = 1;
+    view["extensions"]["EXT_meshopt_compression"] = {{"buffer", 0},
+                                                     {"byteLength", 16},
+                                                     {"byteStride", 12},
+                                                     {"count", 8},
+                                                     {"mode", "ATTRIBUTES"}};
+  }
+  json["extensionsUsed"] = {"EXT_meshopt_compression"};
+  const auto model = read_gltf(json.dump(), false, "in.gltf", "/nonexistent/in", {});
+  ASSERT_TRUE(model) << model.error().message();
+  const AtlasMesh atlas = midpoint_cut(model->mesh, [](std::size_t f, std::size_t k) {
+    return Vec2{static_cast<double>(f) / 16, static_cast<double>(k) / 4};
+  });
+  ASSERT_TRUE(model->source->save(output_path("fallback.gltf"), model->mesh, atlas));
+  const Json after = reopen(output_path("fallback.gltf")).json;
+  EXPECT_EQ(after["buffers"].size(), 1U);
+  EXPECT_EQ(after.dump().find("meshopt"), std::string::npos);
+}
+
 TEST(GltfExtensions, TopologyCopiesGoWhenIndicesChange) {
   GltfBuilder builder = cube();
   builder.json["extensionsUsed"] = {"EXT_mesh_manifold"};

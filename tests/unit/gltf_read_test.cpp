@@ -110,8 +110,8 @@ TEST(GltfRead, QuantizedAndNormalizedValues) {
   ASSERT_TRUE(model) << model.error().message();
   EXPECT_EQ(model->mesh.positions[0], (Vec3{-1, 0, 0})) << "-32768 is -1 too";
   EXPECT_EQ(model->mesh.positions[1].x, 1.0);
-  EXPECT_EQ(model->mesh.positions[2].y, 16384.0 / 32767.0);
-  EXPECT_EQ(model->mesh.texcoords[2], (Vec2{0.2, 1}));
+  EXPECT_EQ(model->mesh.positions[2].y, double{16384.0F / 32767.0F}) << "as if it were a float";
+  EXPECT_EQ(model->mesh.texcoords[2], (Vec2{double{0.2F}, 1}));
   EXPECT_EQ(model->mesh.positions[3], (Vec3{-128, 1, 2}));
   EXPECT_EQ(model->mesh.texcoords[4].x, 65535.0);
 }

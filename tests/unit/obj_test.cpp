@@ -69,9 +69,12 @@ TEST(Obj, ObjectsByTheirNames) {
 }
 
 TEST(Obj, ReadsAllFormsOfCornersAndIndices) {
-  const Model model = obj(kPlain + "vt 0 0\nvt 1 0\nvn 0 0 1\nf 1 2//1 -1/-2\nf +1/ 2/2/-1 3/1/\n");
-  EXPECT_EQ(model.mesh.corner_position, (std::vector<std::uint32_t>{0, 1, 2, 0, 1, 2}));
-  EXPECT_EQ(model.mesh.corner_texcoord, (std::vector<std::uint32_t>{kNone, kNone, 0, kNone, 1, 0}));
+  const Model model = obj(kPlain +
+                          "vt 0 0\nvt 1 0\nvn 0 0 1\nf 1 2//1 -1/-2\nf +1 2/2/-1 3/1\n"
+                          "f 1/ 2/1/ 3//\n");
+  EXPECT_EQ(model.mesh.corner_position, (std::vector<std::uint32_t>{0, 1, 2, 0, 1, 2, 0, 1, 2}));
+  EXPECT_EQ(model.mesh.corner_texcoord,
+            (std::vector<std::uint32_t>{kNone, kNone, 0, kNone, 1, 0, kNone, 0, kNone}));
 }
 
 TEST(Obj, ReadsNumbersAndExtraComponents) {
@@ -110,6 +113,12 @@ TEST(Obj, ErrorsNameTheLine) {
   for (const char* bad : {"0", "-4", "x", "1/x", "1//0", "1/2/3/4", "99999999999", "4294967296"}) {
     const std::string text = kPlain + "\\\n\nf 1 2 " + bad + "\n";
     EXPECT_EQ(obj_error(text).rfind("m:6: '", 0), 0U) << bad << " " << obj_error(text);
+  }
+  for (const char* open : {"3/", "3//", "3/1/"}) {
+    const std::string face = std::string("f 1/1 2/1 ") + open;
+    EXPECT_EQ(obj_error("vt 0 0\n" + kPlain + face)
+                  .rfind(std::string("m:5: nothing follows the slash of '") + open + "'", 0),
+              0U);
   }
   EXPECT_EQ(
       obj_error(kPlain + "f 1 2 3\nf 1 2 4\n").rfind("m:5: the face refers to vertex 4 of 3", 0),

@@ -165,6 +165,24 @@ TEST(Pack, BadOptionsAreUsageErrors) {
   EXPECT_FALSE(pack({}, options_for(Method::modulo, Wrap::uv)));
 }
 
+TEST(Pack, ChartsWithoutAreaAreAnInputError) {
+  const auto triangle = [](double height) {
+    return chart_from_triangles({{0, 0}, {1, 0}, {0.5, height}}, {{0, 1, 2}});
+  };
+  const auto kind = [](const std::vector<Chart>& charts) {
+    const auto packing = pack(charts, options_for(Method::modulo, Wrap::uv));
+    return packing ? ErrorKind::check : packing.error().kind;
+  };
+  EXPECT_EQ(kind({triangle(0)}), ErrorKind::input);
+  EXPECT_EQ(kind({triangle(1e-17)}), ErrorKind::input);
+  EXPECT_EQ(kind({triangle(1e-10), triangle(0)}), ErrorKind::input);
+  EXPECT_EQ(kind({chart_from_triangles({{0.1, 0.2}, {0.3, 0.4}, {0.4, 0.5}}, {{0, 1, 2}})}),
+            ErrorKind::input)
+      << "collinear but for rounding";
+  EXPECT_EQ(kind({triangle(1e-17), triangle(1)}), ErrorKind::check) << "a good one is packed";
+  EXPECT_EQ(kind({triangle(1e-6)}), ErrorKind::check) << "thin, and packed";
+}
+
 TEST(Pack, LimitsOfTheGridHold) {
   const std::vector<Chart> charts{test::rectangle(1, 1)};
   PackOptions options = options_for(Method::modulo, Wrap::uv);

@@ -85,6 +85,13 @@ TEST(Stl, Errors) {
   expect_error(binary.substr(0, 183),
                "m: a binary STL of this many triangles has 184 bytes, the "
                "file has 183");
+  for (const std::string header : {"solid", "solid\n", "solid facet", "solid\nfacet normal"}) {
+    expect_error(binary_stl(kTwo, header).substr(0, 183), "m: a binary STL of this many triangles");
+    expect_error(binary_stl(kTwo, header).substr(0, 83), "m: the file is no STL: too short");
+  }
+  std::string blanks = "solid";
+  blanks.resize(80, ' ');
+  expect_error(binary_stl(kTwo, blanks).substr(0, 150), "m: a binary STL of this many triangles");
   std::string huge = binary;
   huge.replace(80, 4, "\xff\xff\xff\xff");
   expect_error(huge, "m: a binary STL of this many triangles has 214748364834 bytes");

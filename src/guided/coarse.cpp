@@ -8,6 +8,7 @@ namespace {
 
 constexpr double kAimed = 0.85;  ///< efficiency at which the domain has CoarseOptions::side cells
 constexpr double kStart = 0.55;  ///< efficiency of the first domain
+constexpr int kFirstStride = 3;  ///< steps at a time until the first domain that was not filled
 
 std::vector<Place> scaled(const std::vector<Place>& places, PieceLibrary& library,
                           const Domain& from, const Domain& to) {
@@ -33,19 +34,29 @@ CoarseSearch::CoarseSearch(std::span<const ChartShape> shapes, Vec2 lengths, boo
   scale.growth = options_.grown * options_.side / std::sqrt(lengths_.x * lengths_.y);
   scale.coverage = Coverage::center;
   library_ = std::make_unique<PieceLibrary>(shapes_, scale, options_.angles, 4 * options_.side);
-  step_ = static_cast<int>(std::lround(options_.side * std::sqrt(kAimed / kStart)));
-  step_of_places_ = step_;
+  start_step_ = static_cast<int>(std::lround(2 * options_.side * std::sqrt(kAimed / kStart)));
+  begin_anew();
+}
+
+/// All charts anywhere, on a large domain.
+void CoarseSearch::begin_anew() {
+  step_ = step_of_places_ = start_step_;
+  filled_step_ = failures_ = 0;
+  stride_ = kFirstStride;
   const Domain domain = domain_at(step_);
+  places_.clear();
   for (std::size_t i = 0; i < shapes_.size(); ++i) {
     places_.push_back({random_.below(options_.angles), random_.below(domain.width),
                        random_.below(domain.height)});
   }
 }
 
+/// Half steps: every second one takes a column away, the others a row.
 Domain CoarseSearch::domain_at(int step) const {
   const double aspect = std::sqrt(lengths_.x / lengths_.y);
-  return {std::max(1, static_cast<int>(std::lround(step * aspect))),
-          std::max(1, static_cast<int>(std::lround(step / aspect))), wraps_x_, wraps_y_};
+  const double columns = (step + 1) / 2, rows = step / 2;  // NOLINT(bugprone-integer-division)
+  return {std::max(1, static_cast<int>(std::lround(columns * aspect))),
+          std::max(1, static_cast<int>(std::lround(rows / aspect))), wraps_x_, wraps_y_};
 }
 
 double CoarseSearch::efficiency() const {
@@ -64,11 +75,13 @@ Layout CoarseSearch::best() {
 }
 
 void CoarseSearch::adopt(const CoarseSearch& other) {
-  best_step_ = other.best_step_;
-  best_places_ = other.best_places_;
+  best_step_ = filled_step_ = other.best_step_;
+  best_places_ = filled_places_ = other.best_places_;
   places_ = best_places_;
   step_of_places_ = best_step_;
   step_ = best_step_ - 1;
+  stride_ = 1;
+  failures_ = 0;
 }
 
 /// Turns charts that cannot lie in the domain at their angle.
@@ -117,21 +130,32 @@ void CoarseSearch::run(Effort& effort, bool until_stuck) {
       filled = separator.run(places, options);
     }
     if (filled) {
-      best_step_ = step_;
-      best_places_ = places_ = places;
-      step_of_places_ = step_--;
+      filled_step_ = step_of_places_ = step_;
+      filled_places_ = places_ = places;
+      failures_ = 0;
+      if (best_step_ == 0 || step_ < best_step_) {
+        best_step_ = step_;
+        best_places_ = places;
+      }
+      step_ -= stride_;
       continue;
     }
     if (effort.spent()) break;
-    if (!found()) {  // a hard set: more room
+    if (filled_step_ == 0) {  // a hard set: more room
       step_ += 1 + step_ / 20;
+      start_step_ = std::max(start_step_, step_);
       places_ = places;
       step_of_places_ = step_;
       continue;
     }
-    places_ = best_places_;
-    step_of_places_ = best_step_;
-    disturb(places_, domain_at(best_step_));
+    stride_ = 1;
+    if (++failures_ > options_.patience) {
+      begin_anew();
+      continue;
+    }
+    places_ = filled_places_;
+    step_of_places_ = filled_step_;
+    disturb(places_, domain_at(filled_step_));
     if (until_stuck) break;
   }
 }

@@ -18,6 +18,7 @@ struct CoarseOptions {
   int angles = 64;   ///< tried per chart; divides kAngleSteps
   double grown = 0;  ///< texels by which charts are grown
   int stall_rounds = 40;
+  int patience = 40;  ///< disturbances that lead to nothing before it begins anew
 };
 
 /// One line of search on one shape of domain.
@@ -41,6 +42,7 @@ class CoarseSearch {
  private:
   [[nodiscard]] Domain domain_at(int step) const;
   [[nodiscard]] bool fit_angles(const Domain& domain, std::vector<Place>& places);
+  void begin_anew();
   void disturb(std::vector<Place>& places, const Domain& domain);
 
   std::span<const ChartShape> shapes_;
@@ -50,10 +52,16 @@ class CoarseSearch {
   double cells_per_unit_ = 0, area_ = 0;
   std::unique_ptr<PieceLibrary> library_;
   Random random_;
-  int step_ = 0;       ///< size of the domain now tried, cells of a square of its area
-  int best_step_ = 0;  ///< smallest domain filled; 0: none
+  int step_ = 0;  ///< size of the domain now tried: columns and rows of a square of its area
   int step_of_places_ = 0;
-  std::vector<Place> places_, best_places_;
+  int start_step_ = 0;  ///< of the first domain
+  int stride_ = 1;      ///< steps from one domain to the next
+  int failures_ = 0;    ///< since a domain was filled
+  std::vector<Place> places_;
+  int filled_step_ = 0;  ///< smallest domain filled since it began anew; 0: none
+  std::vector<Place> filled_places_;
+  int best_step_ = 0;  ///< smallest domain ever filled; 0: none
+  std::vector<Place> best_places_;
 };
 
 }  // namespace wrapatlas

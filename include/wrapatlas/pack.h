@@ -46,7 +46,7 @@ struct Progress {
 };
 
 struct PackOptions {
-  Method method = Method::modulo;
+  Method method = Method::guided;
   Wrap wrap = Wrap::uv;  ///< the baselines know `none` only
   int width = 1024;      ///< texels of the final texture; 1 to 65536
   int height = 1024;     ///< the same
@@ -62,7 +62,7 @@ struct PackOptions {
   double lambda = 1.1;       ///< penalty of outer placements (modulo), 0 to 1e6
   bool inner = true;         ///< modulo: also try the four inner strategies
   bool all_sides = false;    ///< zsgs04: try all four sides for every chart
-  double time = 3;           ///< guided: seconds to search, 0 to 1e6; 0: until it is stuck once
+  double time = 1;           ///< guided: seconds to search, 0 to 1e6; 0: until it is stuck once
   std::int64_t moves = 0;    ///< guided: if > 0, search for so many moves of charts instead
   int threads = 0;           ///< 0: as many as the machine has; never changes the result
   std::uint64_t seed = 0;    ///< guided: of its random numbers; the others draw none

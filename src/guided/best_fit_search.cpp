@@ -33,7 +33,8 @@ class BestFitSearch {
 
   void find_scale() {
     double lower = 0, upper = 1, likely = kLikely;
-    while (!record_.stopped() && upper - lower > std::min(kTolerance, upper / 10)) {
+    while (!(best_factor_ > 0 && done()) && !record_.stopped() &&
+           upper - lower > std::min(kTolerance, upper / 10)) {
       std::array<double, kAtOnce> factors{lower + (upper - lower) / 3,
                                           lower + 2 * (upper - lower) / 3};
       if (lower == 0) factors = {likely, likely + (upper - likely) / 2};
@@ -93,7 +94,7 @@ class BestFitSearch {
         for (std::size_t larger = i + 1; larger < kAtOnce; ++larger) {
           if (succeeded[larger]) return true;
         }
-        return record_.poll();
+        return best_factor_ > 0 ? done() : record_.poll();
       };
       succeeded[i] = attempt(factors[i], by_area_, stop);
     });
@@ -143,11 +144,11 @@ class BestFitSearch {
 }  // namespace
 
 void search_best_fit(std::span<const ChartShape> shapes, const PackOptions& options,
-                     std::span<const Frame> frames, Record& record) {
+                     std::span<const Frame> frames, Record& record, bool go_on) {
   for (const Frame& frame : frames) {
     BestFitSearch search(shapes, options, frame, record);
     search.find_scale();
-    if (frames.size() == 1 && record.timed()) search.vary();
+    if (go_on && frames.size() == 1 && record.timed()) search.vary();
   }
 }
 

@@ -10,8 +10,8 @@
 namespace wrapatlas {
 
 /// Offers what best fit finds on each of the frames. Stops once the largest scale is known, or, if
-/// the record keeps a time, goes on with other orders of the charts.
+/// the record keeps a time and `go_on`, tries other orders of the charts.
 void search_best_fit(std::span<const ChartShape> shapes, const PackOptions& options,
-                     std::span<const Frame> frames, Record& record);
+                     std::span<const Frame> frames, Record& record, bool go_on);
 
 }  // namespace wrapatlas

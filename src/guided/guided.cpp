@@ -60,10 +60,15 @@ Result<Packing> pack_guided(std::span<const Chart> charts, const PackOptions& op
   if (failure && failure->kind == ErrorKind::interrupted) return *failure;
   const std::vector<ChartShape> shapes = make_shapes(charts);
   if (separate) {
+    // With so little time separation may come to nothing.
+    constexpr double kShort = 0.5;
+    if (record.timed() && options.time < kShort) {
+      search_best_fit(shapes, options, *frames, record, false);
+    }
     Lines lines(shapes, options, *frames, record);
     lines.run();
   } else {
-    search_best_fit(shapes, options, *frames, record);
+    search_best_fit(shapes, options, *frames, record, true);
     if (!record.best() && !record.stopped()) take_first();
   }
   if (!record.best()) {

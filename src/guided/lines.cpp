@@ -15,9 +15,10 @@ int coarse_side(std::size_t charts) {
                     512);
 }
 
-constexpr int kEpochs = 8;              ///< times the best layout is handed to the other lines
-constexpr double kShapesShare = 0.5;    ///< of the time, to choose among shapes of atlas
-constexpr double kRefineReserve = 0.1;  ///< of the time, left for the last refinement
+constexpr int kEpochs = 8;            ///< times the best layout is handed to the other lines
+constexpr double kShapesShare = 0.5;  ///< of the time, to choose among shapes of atlas
+/// Left for the last refinement: this share of the time, but no more than so many seconds.
+constexpr double kRefineShare = 0.1, kRefineSeconds = 0.5;
 
 }  // namespace
 
@@ -95,6 +96,8 @@ void Lines::share_best() {
 }
 
 void Lines::run() {
+  const double end =
+      1 - (record_.timed() ? std::min(kRefineShare, kRefineSeconds / options_.time) : kRefineShare);
   const bool once = !record_.timed() && options_.moves == 0;
   double spent = 0;
   const std::size_t wanted = lines_wanted();
@@ -111,7 +114,7 @@ void Lines::run() {
       if (once) break;
     }
   } else {
-    spend(0, 1 - kRefineReserve, true);
+    spend(0, end, true);
   }
   const auto improve_all = [&] {
     each_line([&](Line& line) {
@@ -123,8 +126,8 @@ void Lines::run() {
   if (once) return;
   for (int epoch = 1; epoch <= kEpochs && !record_.stopped(); ++epoch) {
     share_best();
-    const double from = spent + (1 - kRefineReserve - spent) * (epoch - 1) / kEpochs;
-    const double to = spent + (1 - kRefineReserve - spent) * epoch / kEpochs;
+    const double from = spent + (end - spent) * (epoch - 1) / kEpochs;
+    const double to = spent + (end - spent) * epoch / kEpochs;
     spend(from, to, false);
     improve_all();
   }

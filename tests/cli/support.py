@@ -16,7 +16,9 @@ QUICK = {"--resolution": 256, "--padding": 2, "--rotations": 4, "--grid": 64}
 
 
 def quick(*options):
-    """Options of `pack` with those of QUICK that are not among them."""
+    """Options of `pack` with those of QUICK that are not among them; by default for modulo."""
+    if "--method" not in options:
+        options = (*options, "--method", "modulo")
     return *options, *(x for item in QUICK.items() if item[0] not in options for x in item)
 
 

@@ -12,7 +12,7 @@ import unittest
 import support
 from support import COMMAND
 
-SEARCH = ("--resolution", "1024", "--padding", "2", "--aspect", "search", "--grid", "1024")
+SEARCH = ("--method", "modulo", "--resolution", "1024", "--padding", "2", "--aspect", "search", "--grid", "1024")
 
 
 class Interrupt(support.CommandTest):

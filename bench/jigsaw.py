@@ -18,7 +18,7 @@ import sys
 import outlines
 
 SIDES = ((-1, 0), (1, 0), (0, -1), (0, 1))  # outward normals of the square that is not wrapped
-POINTS_PER_CELL = 10  # corners of a bent border that is as long as a cell is wide
+POINTS_PER_CELL = 12  # corners of a bent border that is as long as a cell is wide
 
 
 def random_points(count, rng):
@@ -102,7 +102,7 @@ def bend(a, b, left, right, spacing, roughness, rng):
     up = (-along[1], along[0])
     apexes = [((p[0] - a[0]) * along[0] + (p[1] - a[1]) * along[1],
                abs((p[0] - a[0]) * up[0] + (p[1] - a[1]) * up[1])) for p in (left, right)]
-    waves = [(rng.uniform(0.4, 1), rng.uniform(1.0, 5.0) * length / (POINTS_PER_CELL * spacing),
+    waves = [(rng.uniform(0.4, 1), rng.uniform(0.5, 2.5) * length / (POINTS_PER_CELL * spacing),
               rng.uniform(0, 2 * math.pi)) for _ in range(4)]
     steps, points = max(2, round(length / spacing)), []
     for k in range(1, steps):
@@ -145,7 +145,7 @@ class Borders:
         return self.bends[i, other]
 
 
-def cut(pieces, seed=0, wrap=True, roughness=0.5, relaxations=2):
+def cut(pieces, seed=0, wrap=True, roughness=0.3, relaxations=2):
     """The pieces where they belong: counter-clockwise polygons that cover the unit torus
     (their corners may lie outside [0, 1]) or the unit square."""
     rng = random.Random(f"jigsaw {pieces} {seed} {wrap}")
@@ -172,7 +172,7 @@ def shuffled(polygons, seed=0):
                                0.2 / math.sqrt(len(polygons)))
 
 
-def jigsaw(pieces, seed=0, wrap=True, roughness=0.5):
+def jigsaw(pieces, seed=0, wrap=True, roughness=0.3):
     """The text of an OBJ with one chart per piece."""
     charts = shuffled(cut(pieces, seed, wrap, roughness), seed)
     domain = "torus" if wrap else "square"
@@ -187,8 +187,8 @@ def arguments():
     parser.add_argument("--pieces", type=int, default=30, help="2 or more; default 30")
     parser.add_argument("--seed", type=int, default=0, help="another number, another jigsaw")
     parser.add_argument("--no-wrap", action="store_true", help="cut the square, not the torus")
-    parser.add_argument("--roughness", type=float, default=0.5, help="how far borders bend, in "
-                        "parts of the room they have: 0 (straight) to 0.9; default 0.5")
+    parser.add_argument("--roughness", type=float, default=0.3, help="how far borders bend, in "
+                        "parts of the room they have: 0 (straight) to 0.9; default 0.3")
     parser.add_argument("-o", "--output", type=pathlib.Path, required=True, help="OBJ to write")
     options = parser.parse_args()
     if options.pieces < 2 or not 0 <= options.roughness <= 0.9:

@@ -5,8 +5,8 @@ would cover 100 % of it (with no padding), at as many texels per UV unit as the 
 The unit torus is cut into the Voronoi cells of random points, and every border between two cells
 is bent, on both sides alike. Cell i is the fan of the triangles (its point, one of its borders), so
 the two triangles at a border belong to it alone; a bent border is a graph over the straight one
-that stays within the two, and therefore meets no other border and not itself. Pieces are then turned
-at random and laid apart. Same options, same bytes.
+that stays within the two, and therefore meets no other border and not itself. Pieces are then
+turned at random and laid apart. Same options, same bytes.
 """
 
 import argparse

@@ -1,4 +1,4 @@
-"""What the measuring scripts share: packing and checking a file, and saying where it was measured."""
+"""What the measuring scripts share: packing and checking a file, saying where that was, tables."""
 
 import json
 import os

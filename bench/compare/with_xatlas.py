@@ -135,8 +135,8 @@ def print_group(name, rows):
                       f"{statistics.median(row.last for row in mine):.3f}" if method in theirs
                       else ""])
     print(f"\n### {name}: {len(of_file)} {'file' if len(of_file) == 1 else 'files'}\n")
-    print(measure.table(["<method", "mean", "median", "min", "best on", "denser than all of xatlas'",
-                         "median s", "one try, median s"], lines))
+    print(measure.table(["<method", "mean", "median", "min", "best on",
+                         "denser than all of xatlas'", "median s", "one try, median s"], lines))
 
 
 def print_found(found):
@@ -162,8 +162,7 @@ def main():
     rows, found = measured(options)
     print("\nEfficiency: share of the atlas that charts cover, exact areas as written. Time: "
           "packing with the search of the\nscale, without files; xatlas packs on one thread. Every "
-          "packing of wrapatlas passed `wrapatlas check`.\nxatlas cannot wrap; that is its best, not "
-          "a choice of this comparison.")
+          "packing of wrapatlas passed `wrapatlas check`.\nxatlas cannot wrap.")
     for group in dict.fromkeys(row.group for row in rows):
         print_group(group, [row for row in rows if row.group == group])
     print_found(found)

@@ -8,7 +8,7 @@ What xatlas does, from its source (version 0.0.11 of the binding):
   right. Its `bilinear` would add about another texel to each chart; it is off.
 - Border: charts may reach the border of the page, to half a texel.
 - Charts are stretched along both axes of their box to whole texels (always up).
-- A chart that is longer than the page is shrunk on its own; such a result does not count as fitting.
+- A chart that is longer than the page is shrunk on its own; that does not count as fitting.
 - A chart is turned into its box and by a swap of x and y, which mirrors it.
 - Faces without area are left out.
 """
@@ -104,7 +104,8 @@ class Charts:
                 materials.append(chart)  # keeps charts that overlap or touch in the input apart
         uvs = numpy.array(uvs, dtype=numpy.float64)
         self.triangles = numpy.array(triangles, dtype=numpy.uint32)
-        _, self.materials = numpy.unique(materials, return_inverse=True)
+        _, chart = numpy.unique(materials, return_inverse=True)
+        self.materials = chart.astype(numpy.uint32).reshape(-1, 1)
         self.areas = self.areas_of(uvs)
         # Else small faces, or those of charts in small units, are "without area" to xatlas.
         self.unit = resolution / math.sqrt(self.areas.sum())
@@ -114,7 +115,7 @@ class Charts:
     def areas_of(self, uvs):
         a, b, c = (uvs[self.triangles[:, k]] for k in range(3))
         twice = (b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0]
-        return numpy.bincount(self.materials, numpy.abs(twice) / 2)
+        return numpy.bincount(self.materials[:, 0], numpy.abs(twice) / 2)
 
     def packed(self, scale, padding, brute_force):
         """(UVs in [0, 1], seconds), or (None, seconds) where the charts do not fit at the scale."""
@@ -123,7 +124,7 @@ class Charts:
         options.padding, options.bilinear = math.ceil(padding / 2), False
         options.bruteForce, options.create_image = brute_force, False
         atlas = xatlas.Atlas()
-        atlas.add_uv_mesh(self.uvs, self.triangles, self.materials.astype(numpy.uint32).reshape(-1, 1))
+        atlas.add_uv_mesh(self.uvs, self.triangles, self.materials)
         begin = time.monotonic()
         atlas.generate(xatlas.ChartOptions(), options)
         seconds = time.monotonic() - begin

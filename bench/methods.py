@@ -8,17 +8,14 @@ comparison with exit status 1. Progress goes to stderr.
 import argparse
 import collections
 import csv
-import json
-import os
 import pathlib
-import platform
 import shlex
 import statistics
-import subprocess
 import sys
 import tempfile
 
-REPOSITORY = pathlib.Path(__file__).resolve().parents[1]
+import measure
+
 TIE = 1e-9  # efficiencies closer than this are equal
 
 Method = collections.namedtuple("Method", "name method wrap")
@@ -32,18 +29,13 @@ METHODS = [
 Row = collections.namedtuple("Row", "group file method charts efficiency pack total")
 
 
-class Failure(Exception):
-    """A packing or its check went wrong."""
-
-
 def default_files():
     """(group, file) of the data beside the repository, or else of the samples."""
-    data = REPOSITORY.parent / "shared" / "data"
-    files = [(path.parent.name, path) for path in sorted(data.glob("charts/*/*.obj"))]
-    models = [data / "models" / name for name in ("spot.obj", "beast.obj")]
+    files = [(path.parent.name, path) for path in sorted(measure.CHARTS.glob("*/*.obj"))]
+    models = [measure.CHARTS.parent / "models" / name for name in ("spot.obj", "beast.obj")]
     files += [("models", path) for path in models if path.exists()]
     if not files:
-        files = [("samples", REPOSITORY / "samples" / name)
+        files = [("samples", measure.REPOSITORY / "samples" / name)
                  for name in ("coral.glb", "machine.obj", "mosaic.ply")]
     return files
 
@@ -53,15 +45,11 @@ def arguments():
     parser.add_argument("files", nargs="*", type=pathlib.Path,
                         help="models with UVs, grouped by their folder; default: the data beside "
                         "the repository, else the samples")
-    parser.add_argument("--resolution", default="1024")
-    parser.add_argument("--padding", default="2")
-    parser.add_argument("--threads", default="1")
+    measure.add_options(parser, threads="1")
     parser.add_argument("--csv", type=pathlib.Path, help="also write every number to this file")
     parser.add_argument("--guided", metavar="SECONDS",
                         help="also measure guided with this --time, without wrap and with")
     parser.add_argument("--extra", default="", help="further arguments of wrapatlas pack")
-    parser.add_argument("--wrapatlas", default=os.environ.get(
-        "WRAPATLAS", str(REPOSITORY / "build/release/cli/wrapatlas")), help="the command to run")
     options = parser.parse_args()
     options.methods = list(METHODS)
     if options.guided is not None:
@@ -74,51 +62,16 @@ def arguments():
     return options
 
 
-def machine():
-    name = platform.processor() or platform.machine()
-    try:
-        lines = pathlib.Path("/proc/cpuinfo").read_text().splitlines()
-        name = next(line.split(": ", 1)[1] for line in lines if line.startswith("model name"))
-    except (OSError, StopIteration):
-        pass
-    return f"{name}, {os.cpu_count()} cores"
-
-
-def commit():
-    command = ["git", "-C", str(REPOSITORY), "describe", "--always", "--dirty", "--abbrev=10"]
-    try:
-        return subprocess.run(command, capture_output=True, text=True, check=True).stdout.strip()
-    except (OSError, subprocess.CalledProcessError):
-        return "unknown"
-
-
-def run(command, what):
-    done = subprocess.run(command, capture_output=True, text=True)
-    if done.returncode != 0:
-        raise Failure(f"{what}: exit status {done.returncode} of {shlex.join(command)}\n"
-                      f"{done.stderr.strip()}")
-    return done.stdout
-
-
 def own_options(method, options):
     if method.method == "guided":
         return ["--time", options.guided]
     return shlex.split(options.extra)
 
 
-def measure(group, path, method, options, folder):
-    """Packs one file by one method, checks the result, and gives the row of numbers."""
-    what = f"{path}: {method.name}"
-    ending = path.suffix if path.suffix.lower() not in (".off", ".stl") else ".obj"
-    packed = str(pathlib.Path(folder) / ("packed" + ending))
-    report = json.loads(run(
-        [options.wrapatlas, "pack", str(path), "-o", packed, "--method", method.method,
-         "--wrap", method.wrap, "--resolution", options.resolution, "--padding", options.padding,
-         "--threads", options.threads, "--json", "-", *own_options(method, options)], what))
-    # The atlas may have another shape than asked for, where its aspect was searched.
-    run([options.wrapatlas, "check", packed, "--ref", str(path),
-         "--resolution", f"{report['width']}x{report['height']}", "--padding", options.padding,
-         "--wrap", method.wrap, "--threads", options.threads], what)
+def measured(group, path, method, options, folder):
+    """The row of numbers of one file packed by one method."""
+    report = measure.pack(options, path, folder, method.method, method.wrap,
+                          f"{path}: {method.name}", own_options(method, options))
     seconds = report["seconds"]
     return Row(group, str(path), method.name, report["charts"], report["efficiency"],
                seconds["pack"], seconds["total"])
@@ -129,8 +82,8 @@ def measure_all(options):
     with tempfile.TemporaryDirectory(prefix="wrapatlas_methods") as folder:
         for group, path in options.inputs:
             for method in options.methods:
-                print(f"[{len(rows) + 1}/{jobs}] {path} {method.name}", file=sys.stderr)
-                rows.append(measure(group, path, method, options, folder))
+                measure.progress(f"[{len(rows) + 1}/{jobs}] {path} {method.name}")
+                rows.append(measured(group, path, method, options, folder))
     return rows
 
 
@@ -179,14 +132,8 @@ def main():
     missing = [str(path) for _, path in options.inputs if not path.exists()]
     if missing:
         sys.exit(f"methods.py: no such file: {missing[0]}")
-    print(f"machine: {machine()}; commit: {commit()}; options: resolution {options.resolution}, "
-          f"padding {options.padding}, threads {options.threads}, extra '{options.extra}'; "
-          f"command: {shlex.join(sys.argv)}")
-    try:
-        rows = measure_all(options)
-    except Failure as failure:
-        print(f"methods.py: {failure}", file=sys.stderr)
-        sys.exit(1)
+    measure.print_origin(options, f"extra '{options.extra}'")
+    rows = measure_all(options)
     print("\nEfficiency: share of the atlas that charts cover, exact areas. Best on: share of the "
           "files; of equals, each counts.\nEvery packing passed `wrapatlas check`.")
     groups = list(dict.fromkeys(row.group for row in rows))
@@ -203,4 +150,4 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    measure.run_script(main)

@@ -11,7 +11,8 @@ import unittest
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 COMMAND = os.environ["WRAPATLAS"]
 PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", ROOT / "samples/README.md",
-         ROOT / "tests/README.md", *sorted((ROOT / "docs").rglob("*.md"))]
+         ROOT / "tests/README.md", ROOT / "bench/README.md", ROOT / "bench/compare/README.md",
+         *sorted((ROOT / "docs").rglob("*.md"))]
 
 
 def options_of(command):

@@ -16,12 +16,15 @@ import sys
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE))
 sys.dont_write_bytecode = True
-from figures import atlas_figures, method_figures, raster_figures, search_figures, wrap_figures  # noqa: E402
+from figures import (atlas_figures, guided_figures, method_figures, raster_figures,  # noqa: E402
+                     search_figures, wrap_figures)
 
 DIAGRAMS = {
     "coverage": raster_figures.coverage,
     "horizons": raster_figures.horizons,
     "padding": raster_figures.padding,
+    "configuration-space": guided_figures.configuration_space,
+    "doubling": guided_figures.doubling,
     "channels": method_figures.channels,
     "drop": method_figures.drop,
     "four-sides": method_figures.four_sides,

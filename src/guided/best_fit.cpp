@@ -7,12 +7,8 @@
 namespace wrapatlas {
 namespace {
 
-/// A chart has about this many cells along its side on the board where its place is sought.
-constexpr double kCellsAlong = 16;
 /// Boards with fewer rows are looked at as a whole.
 constexpr int kFewRows = 320;
-/// Tight translations after which a larger board need not be looked at further.
-constexpr int kEnough = 8;
 constexpr std::size_t kLooks = 48;      ///< translations per angle whose contact is counted
 constexpr std::size_t kFineLooks = 12;  ///< the same on the frame's grid
 constexpr std::size_t kSettled = 4;     ///< candidates tried on the frame's grid
@@ -59,8 +55,18 @@ void take_halved(Occupancy& board, int halvings, const Domain& fine, int y, int 
 
 }  // namespace
 
-BestFitPage::BestFitPage(const Frame& frame, Wrap wrap, Coverage coverage, double scale)
-    : frame_(frame), coverage_(coverage), scale_(scale), fine_(domain_of(frame, wrap)) {}
+BestFitCare care_for(std::size_t charts, bool hurried) {
+  constexpr std::size_t kFew = 500;
+  return charts <= kFew && !hurried ? BestFitCare{24, 256, true} : BestFitCare{16, 8, false};
+}
+
+BestFitPage::BestFitPage(const Frame& frame, Wrap wrap, Coverage coverage, double scale,
+                         const BestFitCare& care)
+    : frame_(frame),
+      coverage_(coverage),
+      scale_(scale),
+      care_(care),
+      fine_(domain_of(frame, wrap)) {}
 
 RasterScale BestFitPage::raster_scale(int halvings) const {
   const double cells = std::exp2(-halvings);
@@ -107,7 +113,7 @@ void BestFitPage::seek(const RasterShape& shape, std::span<const double> angles,
   const int max_side = 4 * std::max(domain.width, domain.height);
   int first_free = domain.height;
   // Of the smallest charts there are very many, and angles say little of them.
-  const std::size_t step = halvings_ == 0 && domain.height > kFewRows ? 2 : 1;
+  const std::size_t step = !care_.all_angles && halvings_ == 0 && domain.height > kFewRows ? 2 : 1;
   for (std::size_t i = 0; i < angles.size(); i += step) {
     const double angle = angles[i];
     const ChartRaster raster = rasterize(shape, scale, angle, max_side);
@@ -122,7 +128,7 @@ void BestFitPage::seek(const RasterShape& shape, std::span<const double> angles,
     if (range.y_count <= 0) continue;
     range.whole = true;
     const Probes probes = probes_of(piece, *raster.unturned, board);
-    free_.scan(board, probes, range, rows > kFewRows ? kEnough : 0);
+    free_.scan(board, probes, range, rows > kFewRows ? care_.enough : 0);
     if (free_.first_row() < 0) continue;
     first_free = std::min(first_free, range.y_begin + free_.first_row());
     free_.tightest(kLooks, shifts_);
@@ -217,7 +223,8 @@ std::optional<BestFitPage::Spot> BestFitPage::place(const RasterShape& shape, do
                                                     std::span<const double> angles) {
   const double along =
       std::sqrt(area) * scale_ / std::sqrt(frame_.cell.x * frame_.cell.y) + 2 * frame_.growth + 1;
-  const int halvings = std::max(0, static_cast<int>(std::floor(std::log2(along / kCellsAlong))));
+  const int halvings =
+      std::max(0, static_cast<int>(std::floor(std::log2(along / care_.cells_along))));
   use_board(halvings, area);
   for (const bool everywhere : {false, true}) {
     if (everywhere && first_row_ == 0) break;

@@ -15,12 +15,21 @@
 
 namespace wrapatlas {
 
+/// How thoroughly places are looked for.
+struct BestFitCare {
+  double cells_along;  ///< of a chart, on the board where its place is sought
+  int enough;       ///< tight translations after which a large board need not be looked at further
+  bool all_angles;  ///< also for the smallest charts
+};
+BestFitCare care_for(std::size_t charts, bool hurried);
+
 /// One page at one scale. Charts have to come by decreasing area, roughly: each is first looked
 /// for a place on a board whose cells are as large as its size allows, and then moved into contact
 /// on the board of the frame, which alone decides what is free.
 class BestFitPage {
  public:
-  BestFitPage(const Frame& frame, Wrap wrap, Coverage coverage, double scale);
+  BestFitPage(const Frame& frame, Wrap wrap, Coverage coverage, double scale,
+              const BestFitCare& care);
 
   struct Spot {
     Placement placement;
@@ -45,6 +54,7 @@ class BestFitPage {
   Frame frame_;
   Coverage coverage_;
   double scale_;
+  BestFitCare care_;
   Occupancy fine_;
   std::unique_ptr<Occupancy> coarse_;  ///< none while halvings_ is 0
   int halvings_ = 0;                   ///< a cell of the board is 2^halvings_ of the frame's long

@@ -80,6 +80,10 @@ class BestFitSearch {
   /// Success is not monotone: a scale that failed leaves some room above it (see scale_search.h).
   static double raised(double factor, double upper) { return factor + (upper - factor) / 4; }
 
+  [[nodiscard]] bool hurried() const {
+    constexpr double kShort = 3;  // seconds
+    return record_.timed() && options_.time < kShort;
+  }
   [[nodiscard]] bool done() {
     return record_.poll() || (record_.timed() && Effort::Clock::now() >= record_.at(1));
   }
@@ -108,7 +112,8 @@ class BestFitSearch {
   template <typename Stop>
   bool attempt(double factor, const std::vector<std::uint32_t>& order, Stop stop) {
     if (factor <= best_factor_) return false;
-    BestFitPage page(frame_, options_.wrap, options_.coverage, factor * full_scale_);
+    BestFitPage page(frame_, options_.wrap, options_.coverage, factor * full_scale_,
+                     care_for(shapes_.size(), hurried()));
     std::vector<Placement> placements(shapes_.size());
     std::int64_t cells = 0;
     for (const std::uint32_t chart : order) {

@@ -51,6 +51,14 @@ void CoarseSearch::begin_anew() {
   }
 }
 
+void CoarseSearch::begin_with(const Layout& layout) {
+  const double side = cells_per_unit_ * std::sqrt(lengths_.x * lengths_.y) / layout.scale;
+  constexpr double kRoom = 1.01;  // as the grids differ
+  step_ = step_of_places_ = static_cast<int>(std::ceil(2 * kRoom * side));
+  places_ = to_places(layout, *library_, domain_at(step_));
+  stride_ = 1;
+}
+
 /// Half steps: every second one takes a column away, the others a row.
 Domain CoarseSearch::domain_at(int step) const {
   const double aspect = std::sqrt(lengths_.x / lengths_.y);

@@ -28,6 +28,8 @@ class CoarseSearch {
   CoarseSearch(std::span<const ChartShape> shapes, Vec2 lengths, bool wraps_x, bool wraps_y,
                const CoarseOptions& options, std::uint64_t seed);
 
+  /// Begins with this layout, in place of charts anywhere.
+  void begin_with(const Layout& layout);
   /// Goes on until the effort is spent, or `until_stuck` and a domain has not been filled.
   void run(Effort& effort, bool until_stuck);
 

@@ -16,6 +16,8 @@ namespace {
 
 /// Separation looks at all other charts at every move.
 constexpr std::size_t kMostSeparated = 200;
+/// Up to so many charts separation goes on from best fit.
+constexpr std::size_t kMostImproved = 1000;
 
 /// Texels to a cell of the final grid.
 double fine_cell(const PackOptions& options, std::size_t charts) {
@@ -66,7 +68,15 @@ Result<Packing> pack_guided(std::span<const Chart> charts, const PackOptions& op
       search_best_fit(shapes, options, *frames, record, false);
     }
     Lines lines(shapes, options, *frames, record);
+    if (record.best()) lines.begin_with(*record.best(), false);
     lines.run();
+  } else if (charts.size() <= kMostImproved && frames->size() == 1) {
+    search_best_fit(shapes, options, *frames, record, false);
+    Lines lines(shapes, options, *frames, record);
+    if (record.best() && record.timed()) {
+      lines.begin_with(*record.best(), true);
+      lines.run();
+    }
   } else {
     search_best_fit(shapes, options, *frames, record, true);
     if (!record.best() && !record.stopped()) take_first();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace wrapatlas {
 namespace {
@@ -14,6 +15,21 @@ int cell_of(double centre, double piece_centre, int size, int length, bool wraps
 }
 
 }  // namespace
+
+Layout to_layout(const Packing& packing, std::span<const ChartShape> shapes, const Frame& frame) {
+  Layout layout;
+  layout.scale = packing.scale;
+  for (std::size_t i = 0; i < shapes.size(); ++i) {
+    const double turns =
+        (packing.placements[i].angle - shapes[i].base_angle) / (2 * std::numbers::pi);
+    const int angle = static_cast<int>(std::lround(turns * kAngleSteps)) % kAngleSteps;
+    const Vec2 centre = packing.transform(i).apply(shapes[i].raster.centre) - frame.origin;
+    layout.spots.push_back(
+        {angle < 0 ? angle + kAngleSteps : angle,
+         {centre.x / (frame.width * frame.cell.x), centre.y / (frame.height * frame.cell.y)}});
+  }
+  return layout;
+}
 
 std::vector<Place> to_places(const Layout& layout, PieceLibrary& library, const Domain& domain) {
   std::vector<Place> places(layout.spots.size());

@@ -5,6 +5,7 @@
 
 #include "guided/piece_library.h"
 #include "guided/separate.h"
+#include "pack/frame.h"
 
 namespace wrapatlas {
 
@@ -20,6 +21,9 @@ struct Layout {
   double scale = 0;  ///< texels per input unit
   std::vector<ChartSpot> spots;
 };
+
+/// Where the charts of a finished packing lie, seen from the domain of a frame of its shape.
+Layout to_layout(const Packing& packing, std::span<const ChartShape> shapes, const Frame& frame);
 
 /// The nearest places on a grid. Angles are rounded to those of the library.
 std::vector<Place> to_places(const Layout& layout, PieceLibrary& library, const Domain& domain);

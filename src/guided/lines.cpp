@@ -41,6 +41,17 @@ Lines::Lines(std::span<const ChartShape> shapes, const PackOptions& options,
   }
 }
 
+void Lines::begin_with(const Packing& packing, bool all) {
+  for (const auto& line : lines_) {
+    if (line->frame->texture_width != packing.width ||
+        line->frame->texture_height != packing.height) {
+      continue;
+    }
+    line->coarse.begin_with(to_layout(packing, shapes_, *line->frame));
+    if (!all) return;
+  }
+}
+
 /// Not as many as threads where the result must not depend on them.
 std::size_t Lines::lines_wanted() const {
   return record_.timed() ? static_cast<std::size_t>(thread_count(options_.threads)) : 2;

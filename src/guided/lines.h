@@ -18,6 +18,8 @@ class Lines {
   Lines(std::span<const ChartShape> shapes, const PackOptions& options,
         std::span<const Frame> frames, Record& record);
 
+  /// Lets lines that do not begin anywhere begin with a packing: the first, or all.
+  void begin_with(const Packing& packing, bool all);
   /// Searches until the record says that it is enough.
   void run();
 

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "guided/best_fit.h"
+#include "guided/page_fill.h"
 #include "guided/random.h"
 #include "pack/parallel.h"
 
@@ -24,7 +25,7 @@ class BestFitSearch {
                 Record& record)
       : shapes_(shapes), options_(options), frame_(frame), record_(record) {
     for (const ChartShape& shape : shapes_) area_ += shape.area;
-    full_scale_ = std::sqrt(frame_.texels() / area_);
+    full_scale_ = full_scale();
     for (const ChartShape& shape : shapes_) {
       angles_.push_back(best_fit_angles(shape.base_angle, options.rotations));
     }
@@ -49,6 +50,29 @@ class BestFitSearch {
     }
   }
 
+  /// Seeks the fewest pages at a given scale.
+  void fill_at(double scale) {
+    const auto stop = [this] { return record_.poll(); };
+    const auto fill = [&](std::uint64_t number) {
+      auto filling = fill_pages(task(), scale, order_of(number), kMostPages, stop);
+      if (!filling) return;
+      record_.offer(make_packing(frame_, options_.wrap, scale, area_,
+                                 std::move(filling->placements), filling->cells, filling->pages),
+                    1 + number);
+    };
+    // A page can hardly be fuller than this.
+    constexpr double kFullest = 0.97;
+    const auto hopeless = [&] {
+      const double fewer = std::round(scale * scale * area_ / record_.efficiency()) - frame_.texels();
+      return scale * scale * area_ > kFullest * fewer;
+    };
+    for (std::uint64_t round = 0; round == 0 || (!done() && !hopeless()); ++round) {
+      parallel_for(kAtOnce, thread_count(options_.threads),
+                   [&](std::size_t i) { fill(round * kAtOnce + i); });
+      if (!record_.timed() || record_.efficiency() == 0) return;
+    }
+  }
+
   /// Tries slightly larger scales with the charts in other orders.
   void vary() {
     constexpr double kStep = 1.002;
@@ -61,6 +85,18 @@ class BestFitSearch {
   }
 
  private:
+  [[nodiscard]] PageTask task() const {
+    return {shapes_, angles_, frame_, options_.wrap, options_.coverage};
+  }
+
+  /// At which the charts would fill the pages, or the largest of them one.
+  [[nodiscard]] double full_scale() const {
+    if (options_.pages <= 1) return std::sqrt(frame_.texels() / area_);
+    double largest = 0;
+    for (const ChartShape& shape : shapes_) largest = std::max(largest, shape.area);
+    return std::sqrt(frame_.texels() / std::max(area_ / options_.pages, largest));
+  }
+
   /// A chart order: by area, blurred a little for all numbers but 0.
   [[nodiscard]] std::vector<std::uint32_t> order_of(std::uint64_t number) const {
     Random random(options_.seed * 7919 + number);
@@ -107,22 +143,16 @@ class BestFitSearch {
   template <typename Stop>
   bool attempt(double factor, const std::vector<std::uint32_t>& order, Stop stop) {
     if (factor <= best_factor_) return false;
-    BestFitPage page(frame_, options_.wrap, options_.coverage, factor * full_scale_);
-    std::vector<Placement> placements(shapes_.size());
-    std::int64_t cells = 0;
-    for (const std::uint32_t chart : order) {
-      if (stop()) return false;
-      const auto spot = page.place(shapes_[chart].raster, shapes_[chart].area, angles_[chart]);
-      if (!spot) return false;
-      placements[chart] = spot->placement;
-      cells += spot->cells;
-    }
+    auto filling = fill_pages(task(), factor * full_scale_, order, options_.pages, stop);
+    if (!filling) return false;
     const std::lock_guard lock(mutex_);
     if (factor > found_factor_) {
       found_factor_ = factor;
-      record_.offer(make_packing(frame_, options_.wrap, factor * full_scale_, area_,
-                                 std::move(placements), cells),
-                    1);
+      // A larger scale is better, be a page empty or not.
+      record_.offer(
+          make_packing(frame_, options_.wrap, factor * full_scale_, area_,
+                       std::move(filling->placements), filling->cells, options_.pages),
+          1);
     }
     return true;
   }
@@ -146,6 +176,10 @@ void search_best_fit(std::span<const ChartShape> shapes, const PackOptions& opti
                      std::span<const Frame> frames, Record& record) {
   for (const Frame& frame : frames) {
     BestFitSearch search(shapes, options, frame, record);
+    if (options.density > 0) {
+      search.fill_at(options.density);
+      continue;
+    }
     search.find_scale();
     if (frames.size() == 1 && record.timed()) search.vary();
   }

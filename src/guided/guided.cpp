@@ -8,6 +8,7 @@
 #include "charts/hull.h"
 #include "guided/best_fit_search.h"
 #include "guided/lines.h"
+#include "guided/pages.h"
 #include "guided/record.h"
 #include "pack/aspects.h"
 
@@ -43,6 +44,9 @@ Result<Packing> pack_guided(std::span<const Chart> charts, const PackOptions& op
   if (!frames) return frames.error();
   double area = 0;
   for (const Chart& chart : charts) area += chart.area;
+  if (options.pages != 1 || options.density > 0) {
+    return pack_pages(make_shapes(charts), options, *frames);
+  }
   Record record(options);
   const bool separate = charts.size() <= kMostSeparated;
   std::optional<Error> failure;

@@ -34,11 +34,12 @@ void add_promise_options(CLI::App& app, PackArguments& a) {
 }
 
 void add_page_options(CLI::App& app, PackArguments& a) {
-  add_number(app, "--density", a.density, {1e-9, 1e9, "texels"},
-             "guided: a fixed scale: so many texels along one unit of the model's surface, in units "
-             "of the file's positions. It is the mean over the mesh, for all charts keep one scale: "
-             "texels per UV unit times the root of (area in UV / area in space). As many pages of "
-             "--resolution are filled as that takes. Default: the largest scale that fits");
+  add_number(
+      app, "--density", a.density, {1e-9, 1e9, "texels"},
+      "guided: a fixed scale: so many texels along one unit of the model's surface, in units "
+      "of the file's positions. It is the mean over the mesh, for all charts keep one scale: "
+      "texels per UV unit times the root of (area in UV / area in space). As many pages of "
+      "--resolution are filled as that takes. Default: the largest scale that fits");
   add_number(app, "--pages", a.pages, {1, double{kMostPages}, "pages"},
              "guided: at most so many pages of --resolution. Page p, from 0 on, is the UV tile "
              "that begins at (p mod 10, p / 10). Default: 1, or with --density as many as needed");
@@ -79,9 +80,10 @@ void add_search_options(CLI::App& app, PackArguments& a) {
 
 void add_output_options(CLI::App& app, PackArguments& a) {
   add_json(app, a.json);
-  app.add_option("--image", a.image,
-                 "Draw the atlas: .png or .svg. Several pages are in one picture, as they lie in UV "
-                 "space: page 0 at the lower left, ten to a row")
+  app.add_option(
+         "--image", a.image,
+         "Draw the atlas: .png or .svg. Several pages are in one picture, as they lie in UV "
+         "space: page 0 at the lower left, ten to a row")
       ->type_name("FILE");
   add_number(app, "--image-size", a.picture.size, {16, 8192, "pixels"},
              "Pixels along the longer side of the atlas (a page) in the picture; fewer where the "

@@ -26,8 +26,7 @@ void note_material_files(const PackArguments& arguments, const Model& model) {
 
 std::vector<double> page_efficiencies(const ChartSet& charts, const Packing& packing) {
   std::vector<double> efficiency(static_cast<std::size_t>(packing.pages), 0);
-  const double unit =
-      packing.scale * packing.scale / (double{1} * packing.width * packing.height);
+  const double unit = packing.scale * packing.scale / (double{1} * packing.width * packing.height);
   for (std::size_t i = 0; i < packing.placements.size(); ++i) {
     efficiency[static_cast<std::size_t>(packing.placements[i].page)] +=
         unit * charts.charts[i].area;
@@ -65,8 +64,7 @@ Json pack_json(const PackArguments& arguments, const ChartSet& charts, const Pac
           {"grid", {packing.grid_width, packing.grid_height}},
           {"rotations", options.rotations},
           {"scale", packing.scale},
-          {"density",
-           outcome.uv_density > 0 ? Json(packing.scale * outcome.uv_density) : Json()},
+          {"density", outcome.uv_density > 0 ? Json(packing.scale * outcome.uv_density) : Json()},
           {"efficiency", packing.efficiency},
           {"page_efficiency", outcome.page_efficiency},
           {"raster_efficiency", packing.raster_efficiency},

@@ -14,11 +14,11 @@ namespace wrapatlas {
 struct CheckOptions {
   int width = 1024, height = 1024;  ///< texels of the atlas
   Wrap wrap = Wrap::none;
-  Wrap cut = Wrap::none;          ///< axes whose sides charts were cut at: no margin is owed there
-  double padding = 0;             ///< texels that must lie between charts
-  double margin = 0;              ///< texels to a side that neither wraps nor was cut at
-  double tolerance = 1e-3;        ///< texels by which a chart may differ from a similarity copy
-  bool stacked_ok = false;        ///< charts that overlap in the reference may overlap here
+  Wrap cut = Wrap::none;    ///< axes whose sides charts were cut at: no margin is owed there
+  double padding = 0;       ///< texels that must lie between charts
+  double margin = 0;        ///< texels to a side that neither wraps nor was cut at
+  double tolerance = 1e-3;  ///< texels by which a chart may differ from a similarity copy
+  bool stacked_ok = false;  ///< charts that overlap in the reference may overlap here
   /// If more than 1: UV tiles 0 .. pages - 1 are pages of their own, ten to a row as UDIM numbers
   /// them. A chart is on the one that holds its smallest corner, and is judged among those there.
   int pages = 1;

@@ -55,7 +55,8 @@ std::vector<Vec2> atlas_uvs(const Chart& chart, const Packing& packing, std::siz
 
 Vec2 tile_offset(const Packing& packing, std::size_t index, bool v_points_down) {
   const PageTile tile = page_tile(packing.placements[index].page);
-  return {static_cast<double>(tile.column), static_cast<double>(v_points_down ? -tile.row : tile.row)};
+  return {static_cast<double>(tile.column),
+          static_cast<double>(v_points_down ? -tile.row : tile.row)};
 }
 
 }  // namespace wrapatlas

@@ -50,29 +50,6 @@ class BestFitSearch {
     }
   }
 
-  /// Seeks the fewest pages at a given scale.
-  void fill_at(double scale) {
-    const auto stop = [this] { return record_.poll(); };
-    const auto fill = [&](std::uint64_t number) {
-      auto filling = fill_pages(task(), scale, order_of(number), kMostPages, stop);
-      if (!filling) return;
-      record_.offer(make_packing(frame_, options_.wrap, scale, area_,
-                                 std::move(filling->placements), filling->cells, filling->pages),
-                    1 + number);
-    };
-    // A page can hardly be fuller than this.
-    constexpr double kFullest = 0.97;
-    const auto hopeless = [&] {
-      const double fewer = std::round(scale * scale * area_ / record_.efficiency()) - frame_.texels();
-      return scale * scale * area_ > kFullest * fewer;
-    };
-    for (std::uint64_t round = 0; round == 0 || (!done() && !hopeless()); ++round) {
-      parallel_for(kAtOnce, thread_count(options_.threads),
-                   [&](std::size_t i) { fill(round * kAtOnce + i); });
-      if (!record_.timed() || record_.efficiency() == 0) return;
-    }
-  }
-
   /// Tries slightly larger scales with the charts in other orders.
   void vary() {
     constexpr double kStep = 1.002;
@@ -151,7 +128,7 @@ class BestFitSearch {
       // A larger scale is better, be a page empty or not.
       record_.offer(
           make_packing(frame_, options_.wrap, factor * full_scale_, area_,
-                       std::move(filling->placements), filling->cells, options_.pages),
+                       std::move(filling->placements), filling->covered(), options_.pages),
           1);
     }
     return true;
@@ -176,10 +153,6 @@ void search_best_fit(std::span<const ChartShape> shapes, const PackOptions& opti
                      std::span<const Frame> frames, Record& record) {
   for (const Frame& frame : frames) {
     BestFitSearch search(shapes, options, frame, record);
-    if (options.density > 0) {
-      search.fill_at(options.density);
-      continue;
-    }
     search.find_scale();
     if (frames.size() == 1 && record.timed()) search.vary();
   }

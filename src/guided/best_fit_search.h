@@ -10,8 +10,7 @@
 namespace wrapatlas {
 
 /// Offers what best fit finds on each of the frames. Stops once the largest scale is known, or, if
-/// the record keeps a time, goes on with other orders of the charts. With options.density the scale
-/// is that, and the fewest pages are sought; options.pages is not looked at then.
+/// the record keeps a time, goes on with other orders of the charts.
 void search_best_fit(std::span<const ChartShape> shapes, const PackOptions& options,
                      std::span<const Frame> frames, Record& record);
 

@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <numeric>
 
 #include "guided/best_fit.h"
 #include "guided/piece.h"
+#include "guided/random.h"
 
 namespace wrapatlas {
 namespace {
@@ -21,14 +22,18 @@ class Patience {
   }
   void failed(double area) {
     left_out_ = 0;
-    failed_area_ = area;
+    failed_area_ = failures_ == 0 ? area : std::min(failed_area_, area);
     ++failures_;
     wait_ = failures_ < kFree ? 0 : std::min(2 * wait_ + 1, kLongestWait);
   }
-  void succeeded() { *this = {}; }
+  void succeeded() {
+    failures_ /= 2;
+    wait_ /= 8;
+    left_out_ = 0;
+  }
 
  private:
-  static constexpr int kFree = 12;  ///< failures in a row without consequences
+  static constexpr int kFree = 4;  ///< failures in a row without consequences
   static constexpr int kLongestWait = 1 << 20;
   static constexpr double kSmaller = 0.9;
 
@@ -46,6 +51,23 @@ double least_cells(const PageTask& task, double area, double scale) {
 
 }  // namespace
 
+std::int64_t PageFilling::covered() const {
+  return std::accumulate(cells.begin(), cells.end(), std::int64_t{0});
+}
+
+std::vector<std::uint32_t> order_by_area(std::span<const ChartShape> shapes,
+                                         std::vector<std::uint32_t> charts, std::uint64_t blur) {
+  constexpr double kBlur = 0.5;
+  Random random(blur);
+  std::vector<double> size(shapes.size());
+  for (const std::uint32_t chart : charts) {
+    size[chart] = shapes[chart].area * (blur == 0 ? 1 : std::exp(kBlur * (random.unit() - 0.5)));
+  }
+  std::stable_sort(charts.begin(), charts.end(),
+                   [&](std::uint32_t a, std::uint32_t b) { return size[a] > size[b]; });
+  return charts;
+}
+
 std::optional<PageFilling> fill_pages(const PageTask& task, double scale,
                                       std::span<const std::uint32_t> order, int most,
                                       const std::function<bool()>& stop) {
@@ -57,10 +79,11 @@ std::optional<PageFilling> fill_pages(const PageTask& task, double scale,
     rest_cells += least_cells(task, task.shapes[chart].area, scale);
   }
   while (!rest.empty()) {
-    if (most > 0 && rest_cells > (most - filling.pages) * cells_of(task.frame)) return {};
-    const bool last = filling.pages + 1 == most;
+    const int pages = filling.pages();
+    if (most > 0 && rest_cells > (most - pages) * cells_of(task.frame)) return {};
+    const bool last = pages + 1 == most;
     BestFitPage page(task.frame, task.wrap, task.coverage, scale);
-    double free = cells_of(task.frame);
+    std::int64_t taken = 0;
     Patience patience;
     next.clear();
     for (const std::uint32_t chart : rest) {
@@ -68,9 +91,10 @@ std::optional<PageFilling> fill_pages(const PageTask& task, double scale,
       const ChartShape& shape = task.shapes[chart];
       const double least = least_cells(task, shape.area, scale);
       std::optional<BestFitPage::Spot> spot;
+      const double free = cells_of(task.frame) - static_cast<double>(taken);
       if (least <= free && (last || patience.tries(shape.area))) {
         spot = page.place(shape.raster, shape.area, task.angles[chart]);
-        if (!spot && free == cells_of(task.frame)) {
+        if (!spot && taken == 0) {
           spot = page.place_alone(shape.raster, task.angles[chart]);
           if (!spot) return {};
         }
@@ -83,12 +107,11 @@ std::optional<PageFilling> fill_pages(const PageTask& task, double scale,
       }
       patience.succeeded();
       filling.placements[chart] = spot->placement;
-      filling.placements[chart].page = filling.pages;
-      filling.cells += spot->cells;
-      free -= static_cast<double>(spot->cells);
+      filling.placements[chart].page = pages;
+      taken += spot->cells;
       rest_cells -= least;
     }
-    ++filling.pages;
+    filling.cells.push_back(taken);
     rest.swap(next);
   }
   return filling;

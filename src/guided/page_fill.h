@@ -24,8 +24,10 @@ struct PageTask {
 
 struct PageFilling {
   std::vector<Placement> placements;  ///< one per chart
-  int pages = 0;                      ///< none is empty
-  std::int64_t cells = 0;             ///< covered, of all pages
+  std::vector<std::int64_t> cells;    ///< covered, per page; no page is empty
+
+  [[nodiscard]] int pages() const { return static_cast<int>(cells.size()); }
+  [[nodiscard]] std::int64_t covered() const;
 };
 
 /// Fills one page after the other: each gets, in the given order (by decreasing area, roughly),
@@ -35,6 +37,10 @@ struct PageFilling {
 std::optional<PageFilling> fill_pages(const PageTask& task, double scale,
                                       std::span<const std::uint32_t> order, int most,
                                       const std::function<bool()>& stop);
+
+/// Charts by decreasing area, blurred a little if `blur` is not 0.
+std::vector<std::uint32_t> order_by_area(std::span<const ChartShape> shapes,
+                                         std::vector<std::uint32_t> charts, std::uint64_t blur);
 
 /// The chart that allows the smallest scale on a page of its own, if that is less than `scale`.
 struct TooLarge {

@@ -104,10 +104,10 @@ Result<Frame> make_frame(int texture_width, int texture_height, double cell,
   frame.cell = {x.cell, y.cell};
   frame.origin = {x.origin, y.origin};
   if (options.coverage == Coverage::conservative || options.padding > 0) {
-    const double slack = options.coverage == Coverage::conservative
-                             ? kPaddingSlack +
-                                   pages_slack(texture_width, texture_height, options.pages)
-                             : 0;
+    const double slack =
+        options.coverage == Coverage::conservative
+            ? kPaddingSlack + pages_slack(texture_width, texture_height, options.pages)
+            : 0;
     frame.growth = (options.padding + slack) / 2 / std::min(x.cell, y.cell);
   }
   return frame;

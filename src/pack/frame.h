@@ -28,7 +28,8 @@ Result<Frame> make_frame(int texture_width, int texture_height, double cell,
 /// A chart whose raster has its cell (0,0) on cell (x, y) of the grid. `offset`: ChartRaster's.
 Placement place_on(const Frame& frame, double angle, Vec2 offset, int x, int y);
 
-/// A finished packing on pages of one frame. `area`: of all charts, input units^2; `covered`: cells.
+/// A finished packing on pages of one frame. `area`: of all charts, input units^2; `covered`:
+/// cells.
 Packing make_packing(const Frame& frame, Wrap wrap, double scale, double area,
                      std::vector<Placement> placements, std::int64_t covered, int pages = 1);
 

@@ -116,14 +116,12 @@ Result<ClosePairs> Checker::find_on_pages(const FindPairs& find) const {
 }
 
 Status Checker::check_distances() {
-  const double spacing =
-      std::sqrt(static_cast<double>(std::max<std::size_t>(1, report_.pages)) * size_.x * size_.y /
-                static_cast<double>(items_.size() + 1));
+  const double spacing = std::sqrt(static_cast<double>(std::max<std::size_t>(1, report_.pages)) *
+                                   size_.x * size_.y / static_cast<double>(items_.size() + 1));
   const double reach = options_.padding + std::min(1.0, spacing);
   const Vec2 period{wraps_[0] ? size_.x : 0, wraps_[1] ? size_.y : 0};
   auto close = find_on_pages([&](std::span<const Item> items) {
-    return find_close_pairs(items, period,
-                            {options_.padding, reach, rounding_, options_.threads});
+    return find_close_pairs(items, period, {options_.padding, reach, rounding_, options_.threads});
   });
   if (!close) return close.error();
   report_.smallest_gap = std::min(close->smallest_gap, reach);

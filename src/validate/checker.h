@@ -60,7 +60,7 @@ class Checker {
   std::vector<Tile> face_tile_;            ///< per face of the atlas; empty if it is one page
   std::vector<double> rounding_;           ///< per chart, texels
   std::vector<Item> items_;                ///< page by page
-  FaceCharts original_;  ///< of the reference
+  FaceCharts original_;                    ///< of the reference
   FaceMatch match_;
   Fits fits_;
   std::vector<std::uint32_t> stack_;  ///< per chart: first chart of its stack

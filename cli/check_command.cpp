@@ -43,6 +43,7 @@ Json to_json(const CheckArguments& arguments, const CheckReport& report, double 
       {"command", "check"},
       {"input", arguments.input},
       {"reference", arguments.reference},
+      {"pages", report.pages},
       {"wrap", name_of(kWraps, arguments.options.wrap)},
       {"cut", name_of(kWraps, arguments.options.cut)},
       {"width", arguments.options.width},
@@ -93,10 +94,11 @@ void print_report(const CheckArguments& arguments, const CheckReport& report) {
   }
   for (const std::string& hint : arguments.hints) say("{}: hint: {}\n", name, hint);
   for (const std::string& what : arguments.unchecked) say("{}: not checked: {}\n", name, what);
-  say("{}: {}: {}, {:.1f} % in use; {} x {} texels, wrap {}, padding {}, margin {}\n", name,
+  say("{}: {}: {}, {:.1f} % in use; {}{} x {} texels, wrap {}, padding {}, margin {}\n", name,
       report.ok() ? "ok" : quantity(report.violations, "violation"),
-      quantity(report.charts, "chart"), 100 * report.efficiency, options.width, options.height,
-      name_of(kWraps, options.wrap), options.padding, options.margin);
+      quantity(report.charts, "chart"), 100 * report.efficiency,
+      options.pages > 1 ? quantity(report.pages, "page") + " of " : "", options.width,
+      options.height, name_of(kWraps, options.wrap), options.padding, options.margin);
 }
 
 /// glTF counts v from the top, the other formats from the bottom.
@@ -161,6 +163,7 @@ int run(const CLI::App& app, CheckArguments& arguments) {
     reference = std::move(*loaded);
     if (reference->v_points_down != atlas->v_points_down) turn_upside_down(reference->mesh);
   }
+  arguments.options.v_points_down = atlas->v_points_down;
   const Mesh* source = reference ? &reference->mesh : nullptr;
   const auto report = check_atlas(atlas->mesh, source, options);
   if (!report) {
@@ -202,6 +205,9 @@ Command make_check_command(CLI::App& parser) {
              "Texels that must lie between charts");
   add_number(app, "--margin", a.options.margin, {0, kMostTexels, "texels"},
              "Texels that must lie between charts and a side, where it neither wraps nor was cut");
+  add_number(app, "--pages", a.options.pages, {1, double{kMostPages}, "pages"},
+             "Pages the atlas may have: UV tiles, ten to a row (UDIM). A chart is on the one that "
+             "its smallest u and v lie on, and is judged among those there");
   add_choice(app, "--cut", a.options.cut, kWraps,
              "Axes along which it was cut (--export cut): charts may reach these sides");
   add_number(app, "--tolerance", a.options.tolerance, {0, kMostTexels, "texels"},

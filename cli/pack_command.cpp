@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <optional>
 
 #include "io/file.h"
@@ -32,6 +33,8 @@ std::optional<Error> check_result(const PackArguments& arguments, const Model& m
   options.padding = arguments.options.padding;
   options.margin = arguments.margin_in_force();
   options.stacked_ok = arguments.stacked == Stacked::keep;
+  options.pages = packing.pages;
+  options.v_points_down = model.v_points_down;
   options.threads = arguments.options.threads;
   const auto report = check_atlas(apply_atlas(model.mesh, atlas), &model.mesh, options);
   outcome.validate = seconds_now() - start;
@@ -67,8 +70,31 @@ Status keep_input(const PackArguments& arguments, const Model& model) {
   return refuse_overwriting(arguments.input, model, outputs);
 }
 
+/// --density is in texels per unit of surface, and so are errors about it.
+Status resolve_density(PackArguments& arguments, double uv_density) {
+  if (!arguments.density) return Done{};
+  if (uv_density == 0) {
+    return Error{ErrorKind::input, arguments.input,
+                 "its faces have no area in UV or in space, so there is no texel density",
+                 "unwrap the mesh again, or leave out --density"};
+  }
+  arguments.options.density = *arguments.density / uv_density;
+  return Done{};
+}
+
+Error with_density(Error error, double uv_density) {
+  if (error.density_that_fits > 0) {
+    const double fits = error.density_that_fits * uv_density;
+    const double unit = std::pow(10, std::floor(std::log10(fits)) - 4);
+    error.remedy = fmt::format("--density {:.5g} would fit, or raise --resolution",
+                               std::floor(fits / unit) * unit);
+  }
+  return error;
+}
+
 /// Packs with a line of progress; Ctrl-C ends it with the best so far.
-Result<Packing> pack_with_progress(PackArguments& arguments, const ChartSet& charts) {
+Result<Packing> pack_with_progress(PackArguments& arguments, const ChartSet& charts,
+                                   double uv_density) {
   catch_interrupts();
   ProgressLine line(!arguments.quiet);
   arguments.options.progress = [&line](const Progress& progress) {
@@ -76,7 +102,7 @@ Result<Packing> pack_with_progress(PackArguments& arguments, const ChartSet& cha
     return !interrupted();
   };
   auto packing = pack(charts.charts, arguments.options);
-  if (!packing) return inside_input(arguments, packing.error());
+  if (!packing) return with_density(inside_input(arguments, packing.error()), uv_density);
   return packing;
 }
 
@@ -123,14 +149,19 @@ int run(const CLI::App& app, PackArguments& arguments) {
   outcome.charts = seconds_now() - charts_start;
   print_pack_notes(arguments, *model, *charts);
 
+  outcome.uv_density = uv_density(model->mesh);
+  if (const Status ok = resolve_density(arguments, outcome.uv_density); !ok) {
+    return report_error(ok.error());
+  }
   const double pack_start = seconds_now();
-  const auto packing = pack_with_progress(arguments, *charts);
+  const auto packing = pack_with_progress(arguments, *charts, outcome.uv_density);
   if (!packing) return report_error(packing.error());
+  outcome.page_efficiency = page_efficiencies(*charts, *packing);
   outcome.pack = seconds_now() - pack_start;
 
   AtlasMesh atlas = arguments.export_mode == Export::cut
-                        ? export_cut(model->mesh, *charts, *packing)
-                        : export_continuous(model->mesh, *charts, *packing);
+                        ? export_cut(model->mesh, *charts, *packing, model->v_points_down)
+                        : export_continuous(model->mesh, *charts, *packing, model->v_points_down);
   round_texcoords_to_float(atlas);
   if (const auto error = check_result(arguments, *model, atlas, *packing, outcome)) {
     // The paper's coverage is known to be unsafe; who asks for it gets it, with a warning.
@@ -160,7 +191,8 @@ Command make_pack_command(CLI::App& parser) {
       "Examples:\n"
       "  wrapatlas pack model.glb -o packed.glb --resolution 2048 --image atlas.png\n"
       "  wrapatlas pack model.obj -o packed.obj --wrap none --padding 4\n"
-      "  wrapatlas pack model.obj -o packed.obj --aspect search --json -");
+      "  wrapatlas pack model.obj -o packed.obj --aspect search --json -\n"
+      "  wrapatlas pack level.obj -o packed.obj --method guided --density 256 --udim");
   return {&app, [arguments, &app] { return run(app, *arguments); }};
 }
 

@@ -33,6 +33,21 @@ void add_promise_options(CLI::App& app, PackArguments& a) {
              "(they go on sharing texels)");
 }
 
+void add_page_options(CLI::App& app, PackArguments& a) {
+  add_number(
+      app, "--density", a.density, {1e-9, 1e9, "texels"},
+      "guided: a fixed scale: so many texels along one unit of the model's surface, in units "
+      "of the file's positions. It is the mean over the mesh, for all charts keep one scale: "
+      "texels per UV unit times the root of (area in UV / area in space). As many pages of "
+      "--resolution are filled as that takes. Default: the largest scale that fits");
+  add_number(app, "--pages", a.pages, {1, double{kMostPages}, "pages"},
+             "guided: at most so many pages of --resolution. Page p, from 0 on, is the UV tile "
+             "that begins at (p mod 10, p / 10). Default: 1, or with --density as many as needed");
+  app.add_flag("--udim", a.udim,
+               "guided: pages are UDIM tiles 1001, 1002, ...: nothing wraps, so that each chart "
+               "lies within its tile");
+}
+
 void add_search_options(CLI::App& app, PackArguments& a) {
   PackOptions& options = a.options;
   add_number(
@@ -65,9 +80,14 @@ void add_search_options(CLI::App& app, PackArguments& a) {
 
 void add_output_options(CLI::App& app, PackArguments& a) {
   add_json(app, a.json);
-  app.add_option("--image", a.image, "Draw the atlas: .png or .svg")->type_name("FILE");
+  app.add_option(
+         "--image", a.image,
+         "Draw the atlas: .png or .svg. Several pages are in one picture, as they lie in UV "
+         "space: page 0 at the lower left, ten to a row")
+      ->type_name("FILE");
   add_number(app, "--image-size", a.picture.size, {16, 8192, "pixels"},
-             "Pixels along the longer side of the atlas in the picture");
+             "Pixels along the longer side of the atlas (a page) in the picture; fewer where the "
+             "picture would be longer than 16384");
   app.add_flag("--image-tiles", a.picture.tile2x2,
                "Draw the atlas twice along each axis that wraps, to show how it goes on");
   app.add_flag("--quiet", a.quiet, "No progress, no summary, no notes");
@@ -82,6 +102,9 @@ struct MethodOption {
 const MethodOption kMethodOptions[] = {
     {"--time", {Method::guided}},
     {"--moves", {Method::guided}},
+    {"--density", {Method::guided}},
+    {"--pages", {Method::guided}},
+    {"--udim", {Method::guided}},
     {"--rotations", {Method::modulo, Method::swg03, Method::zsgs04, Method::lprm02}},
     {"--scale-start", {Method::modulo, Method::swg03, Method::zsgs04, Method::lprm02}},
     {"--rotation-base", {Method::modulo, Method::swg03, Method::zsgs04}},
@@ -180,6 +203,7 @@ void add_pack_options(CLI::App& app, PackArguments& a) {
       "guided (the densest), modulo (Noell & Stricker 2011), or an earlier packer: these three "
       "cannot wrap");
   add_promise_options(app, a);
+  add_page_options(app, a);
   add_texcoord(app, a.texcoord);
   add_search_options(app, a);
   add_threads(app, a.options.threads);
@@ -190,7 +214,12 @@ Status resolve_pack_options(const CLI::App& app, PackArguments& a) {
   PackOptions& options = a.options;
   if (const Status ok = resolve_size(a); !ok) return ok;
   const bool can_wrap = options.method == Method::modulo || options.method == Method::guided;
-  options.wrap = a.wrap.value_or(can_wrap ? Wrap::uv : Wrap::none);
+  options.wrap = a.wrap.value_or(can_wrap && !a.udim ? Wrap::uv : Wrap::none);
+  if (a.udim && options.wrap != Wrap::none) {
+    return usage(fmt::format("--wrap {}", name_of(kWraps, options.wrap)),
+                 "a chart must not cross the border of a UDIM tile", "leave it out, or --udim");
+  }
+  options.pages = a.pages.value_or(a.density ? 0 : 1);
   if (!can_wrap && options.wrap != Wrap::none) {
     return usage(fmt::format("--wrap {}", name_of(kWraps, options.wrap)),
                  fmt::format("{} cannot wrap around the border", name_of(kMethods, options.method)),

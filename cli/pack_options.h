@@ -18,13 +18,16 @@ struct PackArguments {
   Resolution resolution;
   std::optional<Wrap> wrap;
   std::optional<double> padding, margin;
+  std::optional<double> density;  ///< texels per unit of surface
+  std::optional<int> pages;
+  bool udim = false;
   Export export_mode = Export::continuous;
   Stacked stacked = Stacked::separate;
   int texcoord = 0;
   bool quiet = false, verbose = false, no_inner = false;
   PictureOptions picture;
   std::vector<std::string> notes;  ///< on the options, for the user
-  PackOptions options;             ///< complete after resolve_pack_options
+  PackOptions options;             ///< complete after resolve_pack_options, but for the density
 
   /// Texels to sides that do not wrap, as asked or by default.
   [[nodiscard]] double margin_in_force() const {

@@ -24,6 +24,16 @@ void note_material_files(const PackArguments& arguments, const Model& model) {
 
 }  // namespace
 
+std::vector<double> page_efficiencies(const ChartSet& charts, const Packing& packing) {
+  std::vector<double> efficiency(static_cast<std::size_t>(packing.pages), 0);
+  const double unit = packing.scale * packing.scale / (double{1} * packing.width * packing.height);
+  for (std::size_t i = 0; i < packing.placements.size(); ++i) {
+    efficiency[static_cast<std::size_t>(packing.placements[i].page)] +=
+        unit * charts.charts[i].area;
+  }
+  return efficiency;
+}
+
 Json pack_json(const PackArguments& arguments, const ChartSet& charts, const Packing& packing,
                const PackOutcome& outcome) {
   const PackOptions& options = arguments.options;
@@ -36,7 +46,8 @@ Json pack_json(const PackArguments& arguments, const ChartSet& charts, const Pac
           {"export", name_of(kExports, arguments.export_mode)},
           {"width", packing.width},
           {"height", packing.height},
-          {"pages", 1},
+          {"pages", packing.pages},
+          {"udim", arguments.udim},
           {"charts", charts.charts.size()},
           {"placed", packing.placements.size()},
           {"stacked", charts.stacked},
@@ -53,7 +64,9 @@ Json pack_json(const PackArguments& arguments, const ChartSet& charts, const Pac
           {"grid", {packing.grid_width, packing.grid_height}},
           {"rotations", options.rotations},
           {"scale", packing.scale},
+          {"density", outcome.uv_density > 0 ? Json(packing.scale * outcome.uv_density) : Json()},
           {"efficiency", packing.efficiency},
+          {"page_efficiency", outcome.page_efficiency},
           {"raster_efficiency", packing.raster_efficiency},
           {"packings", packing.packings},
           {"valid", outcome.valid},
@@ -74,8 +87,10 @@ Json pack_json(const PackArguments& arguments, const ChartSet& charts, const Pac
 
 void print_pack_summary(const PackArguments& arguments, const ChartSet& charts,
                         const Packing& packing, const PackOutcome& outcome) {
-  say("{}: {} on {} x {} texels, {:.1f} % in use, {:.2f} s{} -> {}\n", arguments.input,
-      quantity(charts.charts.size(), "chart"), packing.width, packing.height,
+  const std::string pages =
+      packing.pages > 1 ? fmt::format("{} pages of ", packing.pages) : std::string();
+  say("{}: {} on {}{} x {} texels, {:.1f} % in use, {:.2f} s{} -> {}\n", arguments.input,
+      quantity(charts.charts.size(), "chart"), pages, packing.width, packing.height,
       100 * packing.efficiency, outcome.total,
       packing.interrupted ? " (interrupted: the best so far)" : "", arguments.output);
   if (!arguments.verbose) return;
@@ -87,6 +102,14 @@ void print_pack_summary(const PackArguments& arguments, const ChartSet& charts,
   say("  {}, scale {:.6g} texels per UV unit, raster {:.3f} s, place {:.3f} s\n",
       quantity(static_cast<std::size_t>(packing.packings), "packing"), packing.scale,
       packing.raster_seconds, packing.place_seconds);
+  if (outcome.uv_density > 0) {
+    say("  {:.6g} texels per unit of surface, in the mean\n", packing.scale * outcome.uv_density);
+  }
+  for (std::size_t page = 0; packing.pages > 1 && page < outcome.page_efficiency.size(); ++page) {
+    const PageTile tile = page_tile(static_cast<int>(page));
+    say("  page {} (tile {}): {:.1f} % in use\n", page,
+        1001 + tile.column + kPageColumns * tile.row, 100 * outcome.page_efficiency[page]);
+  }
 }
 
 void print_pack_notes(const PackArguments& arguments, const Model& model, const ChartSet& charts) {

@@ -13,7 +13,12 @@ namespace wrapatlas::cli {
 struct PackOutcome {
   double read = 0, charts = 0, pack = 0, validate = 0, write = 0, total = 0;  ///< seconds
   bool valid = true;
+  double uv_density = 0;  ///< UV units per unit of surface; 0: unknown
+  std::vector<double> page_efficiency;
 };
+
+/// Per page the areas of its charts over its own.
+std::vector<double> page_efficiencies(const ChartSet& charts, const Packing& packing);
 
 Json pack_json(const PackArguments& arguments, const ChartSet& charts, const Packing& packing,
                const PackOutcome& outcome);

@@ -33,6 +33,7 @@ struct AtlasMesh {
   std::vector<CutPoint> cut_points;
   std::uint32_t cut_position_count = 0;  ///< cut_points[i].position < this
   Wrap wrap = Wrap::none;                ///< do UVs leave [0,1], so that samplers must repeat
+  int pages = 1;                         ///< UV tiles in use; see export_continuous
 
   [[nodiscard]] std::size_t face_count() const { return face_begin.size() - 1; }
   [[nodiscard]] bool is_cut() const { return !cut_points.empty(); }
@@ -40,11 +41,17 @@ struct AtlasMesh {
 
 /// Whole charts, each shifted so that the smallest corner of its box lies in [0,1); its UVs may
 /// exceed 1 on axes that wrap. One texcoord per (chart, point), in the order of the charts.
-AtlasMesh export_continuous(const Mesh& mesh, const ChartSet& charts, const Packing& packing);
+/// Of several pages, those of page p are then moved to its tile: by (p % 10, p / 10), as UDIM
+/// numbers tiles. So the floor of a chart's smallest u and v tells its page, also after rounding to
+/// float. Tiles go up: in a mesh with `v_points_down` that holds for 1 - v.
+AtlasMesh export_continuous(const Mesh& mesh, const ChartSet& charts, const Packing& packing,
+                            bool v_points_down = false);
 
-/// Faces split along the border of the atlas: all UVs in [0,1]. A point new on an edge is also
-/// inserted in the other faces of that edge, so that no crack opens in the surface.
-AtlasMesh export_cut(const Mesh& mesh, const ChartSet& charts, const Packing& packing);
+/// Faces split along the border of the atlas: all UVs in [0,1], or of several pages within their
+/// tiles. A point new on an edge is also inserted in the other faces of that edge, so that no crack
+/// opens in the surface.
+AtlasMesh export_cut(const Mesh& mesh, const ChartSet& charts, const Packing& packing,
+                     bool v_points_down = false);
 
 /// Rounds all UVs to the nearest 32-bit float, which is what files and graphics cards hold. What is
 /// checked after this is what a renderer will see.

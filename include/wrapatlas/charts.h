@@ -65,6 +65,11 @@ struct ChartSet {
   [[nodiscard]] double total_area() const;
 };
 
+/// UV units per unit of surface, the mean over all faces with UVs: the square root of their area in
+/// UV over their area in space, each triangle counted as often as it is there. So texels per unit
+/// of surface = Packing::scale * uv_density. 0 if one of the areas is 0. O(corners).
+double uv_density(const Mesh& mesh);
+
 /// Finds the charts of a mesh: faces are connected if they share an edge at both of whose ends
 /// position and UV agree (by value, so files that repeat vertices are fine) and are of one object.
 /// Charts are numbered by their first face. Fails if no face has UVs. The mesh must pass

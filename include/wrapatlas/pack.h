@@ -67,15 +67,34 @@ struct PackOptions {
   int threads = 0;           ///< 0: as many as the machine has; never changes the result
   std::uint64_t seed = 0;    ///< guided: of its random numbers; the others draw none
 
+  /// guided: texels per input UV unit, a scale that is kept exactly; 0: the largest is sought.
+  double density = 0;
+  /// Pages of width * height that may be used, 1 to kMostPages; all but guided have one. 0: as many
+  /// as are needed, for a given density alone.
+  int pages = 1;
+
   /// Called now and then from any thread, one call at a time; false ends the search early with
   /// the best packing so far.
   std::function<bool(const Progress&)> progress;
 };
 
-/// Chart -> texel space: texel = scale * R(angle) * uv + translation.
+inline constexpr int kMostPages = 1000;
+
+/// UV units by which rounding to 32-bit floats may move a coordinate where there are so many pages.
+double page_rounding(int pages);
+
+/// Where a page lies in UV space, as UDIM numbers them: ten to a row, tile 1001 + column + 10 row.
+struct PageTile {
+  int column = 0, row = 0;
+};
+inline constexpr int kPageColumns = 10;
+inline PageTile page_tile(int page) { return {page % kPageColumns, page / kPageColumns}; }
+
+/// Chart -> texel space of its page: texel = scale * R(angle) * uv + translation.
 struct Placement {
   double angle = 0;  ///< radians, counter-clockwise in UV axes
   Vec2 translation;  ///< texels
+  int page = 0;      ///< from 0 on
 };
 
 struct Packing {
@@ -83,8 +102,9 @@ struct Packing {
   Wrap wrap = Wrap::none;
   double scale = 0;                   ///< texels per input UV unit, common to all charts
   std::vector<Placement> placements;  ///< one per chart, in the order given
-  double efficiency = 0;              ///< (sum of chart areas at `scale`) / (width * height)
-  double raster_efficiency = 0;       ///< covered cells / cells of the grid
+  int pages = 1;                      ///< in use, each of width x height; none is empty
+  double efficiency = 0;         ///< (sum of chart areas at `scale`) / (pages * width * height)
+  double raster_efficiency = 0;  ///< covered cells / cells of the grid, of all pages
   int grid_width = 0, grid_height = 0;
   int packings = 0;                              ///< placement runs made
   bool interrupted = false;                      ///< progress asked to stop
@@ -96,12 +116,15 @@ struct Packing {
   }
 };
 
-/// Packs all charts into one page. Promise (coverage `conservative`): any two charts, and any
-/// chart and its own image under the wrap, are at least `padding` texels apart, and `margin` from
-/// a side that does not wrap. A chart of zero extent is placed like a dot.
+/// Packs all charts into one page, or several. Promise (coverage `conservative`): any two charts of
+/// a page, and any chart and its own image under the wrap, are at least `padding` texels apart, and
+/// `margin` from a side that does not wrap. A chart of zero extent is placed like a dot.
+/// Without a density: one scale, as large as it finds, at which all go onto `pages` pages. With
+/// one: as few pages as it finds.
 /// Errors: usage (bad options), input (no chart has an area but for rounding), no_packing (nothing
-/// fits at any scale tried), interrupted (stopped before the first packing). No charts at all is a
-/// usage error.
+/// fits at any scale tried; or, at the density asked for, a chart is larger than a page, or more
+/// pages are needed than allowed), interrupted (stopped before the first packing). No charts at all
+/// is a usage error.
 /// The same charts and options give the same bits for any number of threads.
 Result<Packing> pack(std::span<const Chart> charts, const PackOptions& options);
 

@@ -14,7 +14,8 @@
 namespace wrapatlas {
 
 struct PictureOptions {
-  int size = 1024;  ///< pixels along the longer side of one atlas tile; 16 to 8192
+  int size = 1024;  ///< pixels along the longer side of one atlas tile; 16 to 8192; less where
+                    ///< pages would make the picture longer than 16384
   bool ids = true;  ///< chart numbers
   bool outlines = true;
   bool tile2x2 = false;  ///< draw the atlas twice along each axis that wraps
@@ -28,7 +29,8 @@ struct Image {
 };
 
 /// Charts filled with distinct colours, parts that crossed the border hatched, on a dark ground.
-/// The image is exactly the tile (or tiles). Sides that wrap are framed by a dashed line, others by
+/// The image is exactly the tile (or tiles); several pages lie in it as in UV space, ten to a row,
+/// the first at the lower left. Sides that wrap are framed by a dashed line, others by
 /// a whole one. Precondition: one placement per chart. O(pixels + outline edges * their height).
 Image draw_atlas(std::span<const Chart> charts, const Packing& packing,
                  const PictureOptions& options = {});

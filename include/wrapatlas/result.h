@@ -24,6 +24,8 @@ struct Error {
   std::string where;   ///< "model.obj:17", "chart 4"; may be empty
   std::string what;    ///< "face refers to vertex 9 of 8"
   std::string remedy;  ///< "export the mesh again"; may be empty
+  /// no_packing at PackOptions::density, as a chart is too large: a density that would fit. Else 0.
+  double density_that_fits = 0;
 
   /// All of it on one line: "where: what; remedy".
   [[nodiscard]] std::string message() const {

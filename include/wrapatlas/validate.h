@@ -14,11 +14,15 @@ namespace wrapatlas {
 struct CheckOptions {
   int width = 1024, height = 1024;  ///< texels of the atlas
   Wrap wrap = Wrap::none;
-  Wrap cut = Wrap::none;          ///< axes whose sides charts were cut at: no margin is owed there
-  double padding = 0;             ///< texels that must lie between charts
-  double margin = 0;              ///< texels to a side that neither wraps nor was cut at
-  double tolerance = 1e-3;        ///< texels by which a chart may differ from a similarity copy
-  bool stacked_ok = false;        ///< charts that overlap in the reference may overlap here
+  Wrap cut = Wrap::none;    ///< axes whose sides charts were cut at: no margin is owed there
+  double padding = 0;       ///< texels that must lie between charts
+  double margin = 0;        ///< texels to a side that neither wraps nor was cut at
+  double tolerance = 1e-3;  ///< texels by which a chart may differ from a similarity copy
+  bool stacked_ok = false;  ///< charts that overlap in the reference may overlap here
+  /// If more than 1: UV tiles 0 .. pages - 1 are pages of their own, ten to a row as UDIM numbers
+  /// them. A chart is on the one that holds its smallest corner, and is judged among those there.
+  int pages = 1;
+  bool v_points_down = false;     ///< in the atlas; rows of pages count the other way then
   std::size_t max_findings = 20;  ///< how many violations to describe in words
   int threads = 0;
 };
@@ -50,7 +54,8 @@ struct CheckReport {
   std::vector<std::string> remarks;  ///< defects of the input that are not the packing's fault
   double gap_reach = 0;              ///< texels: gaps from here on are not looked for
   double smallest_gap = 0;  ///< texels, between charts closer than gap_reach; else gap_reach
-  double efficiency = 0;    ///< covered area / (width * height)
+  std::size_t pages = 1;    ///< in use
+  double efficiency = 0;    ///< covered area / (pages * width * height)
   double scale = 0;         ///< texels per reference UV unit; 0 without a reference
   [[nodiscard]] bool ok() const { return violations == 0; }
 };

@@ -9,7 +9,13 @@
 namespace wrapatlas {
 
 /// u = texel x / width, v = texel y / height of each point of the chart. On axes that wrap they
-/// are shifted by whole periods so that the smallest lies in [0,1).
-std::vector<Vec2> atlas_uvs(const Chart& chart, const Packing& packing, std::size_t index);
+/// are shifted by whole periods so that the smallest lies in [0,1); of several pages so that it
+/// still does once it was moved to its tile and rounded to float. With `v_points_down` and several
+/// pages that holds for 1 - v.
+std::vector<Vec2> atlas_uvs(const Chart& chart, const Packing& packing, std::size_t index,
+                            bool v_points_down);
+
+/// What has to be added to UVs for them to lie on the tile of the chart's page.
+Vec2 tile_offset(const Packing& packing, std::size_t index, bool v_points_down);
 
 }  // namespace wrapatlas

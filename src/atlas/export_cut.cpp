@@ -28,10 +28,11 @@ double local(double value, double period, bool wraps) {
   return value > -kOutside && value < 1 + kOutside ? std::clamp(value, 0.0, 1.0) : value;
 }
 
-std::vector<Vec2> uv_of_corners(const Mesh& mesh, const ChartSet& charts, const Packing& packing) {
+std::vector<Vec2> uv_of_corners(const Mesh& mesh, const ChartSet& charts, const Packing& packing,
+                                bool v_points_down) {
   std::vector<std::vector<Vec2>> of_chart;
   for (std::size_t chart = 0; chart < charts.charts.size(); ++chart) {
-    of_chart.push_back(atlas_uvs(charts.charts[chart], packing, chart));
+    of_chart.push_back(atlas_uvs(charts.charts[chart], packing, chart, v_points_down));
     for (Vec2& uv : of_chart.back()) uv = snapped(uv, packing.wrap);
   }
   std::vector<Vec2> uvs(mesh.corner_count());
@@ -46,14 +47,16 @@ std::vector<Vec2> uv_of_corners(const Mesh& mesh, const ChartSet& charts, const 
 
 class CutExporter {
  public:
-  CutExporter(const Mesh& mesh, const ChartSet& charts, const Packing& packing)
+  CutExporter(const Mesh& mesh, const ChartSet& charts, const Packing& packing, bool v_points_down)
       : mesh_(mesh),
         charts_(charts),
         wrap_(packing.wrap),
-        corner_uv_(uv_of_corners(mesh, charts, packing)),
+        corner_uv_(uv_of_corners(mesh, charts, packing, v_points_down)),
         edge_cuts_(mesh, charts, corner_uv_, wrap_),
         texcoords_(charts, atlas_.texcoords),
-        next_position_(edge_cuts_.position_count()) {}
+        next_position_(edge_cuts_.position_count()) {
+    add_tiles(packing, v_points_down);
+  }
 
   AtlasMesh run() {
     for (face_ = 0; face_ < mesh_.face_count(); ++face_) {
@@ -68,6 +71,18 @@ class CutExporter {
   }
 
  private:
+  /// UVs leave [0,1] where there are tiles beyond.
+  void add_tiles(const Packing& packing, bool v_points_down) {
+    atlas_.pages = packing.pages;
+    bool beyond_u = false, beyond_v = false;
+    for (std::size_t chart = 0; chart < charts_.charts.size(); ++chart) {
+      tiles_.push_back(tile_offset(packing, chart, v_points_down));
+      beyond_u = beyond_u || tiles_.back().x != 0;
+      beyond_v = beyond_v || tiles_.back().y != 0;
+    }
+    atlas_.wrap = beyond_u ? (beyond_v ? Wrap::uv : Wrap::u) : (beyond_v ? Wrap::v : Wrap::none);
+  }
+
   /// The points of a triangle's side that lies inside its polygon, for the triangle behind it.
   struct Diagonal {
     std::uint32_t from, to;
@@ -222,8 +237,9 @@ class CutExporter {
       }
       atlas_.corner_source.push_back(node.corner);
       atlas_.corner_cut.push_back(node.cut);
-      const Vec2 uv{local(node.uv.x, period.x, wraps_u(wrap_)),
-                    local(node.uv.y, period.y, wraps_v(wrap_))};
+      const Vec2 uv = Vec2{local(node.uv.x, period.x, wraps_u(wrap_)),
+                           local(node.uv.y, period.y, wraps_v(wrap_))} +
+                      (chart == kNone ? Vec2{} : tiles_[chart]);
       if (chart == kNone) {
         atlas_.corner_texcoord.push_back(kNone);
       } else if (node.cut == kNone) {
@@ -246,6 +262,7 @@ class CutExporter {
   AtlasMesh atlas_;
   CutTexcoords texcoords_;
   std::uint32_t next_position_;
+  std::vector<Vec2> tiles_;  ///< per chart
 
   // Of the face at work.
   std::uint32_t face_ = 0;
@@ -260,8 +277,9 @@ class CutExporter {
 
 }  // namespace
 
-AtlasMesh export_cut(const Mesh& mesh, const ChartSet& charts, const Packing& packing) {
-  return CutExporter(mesh, charts, packing).run();
+AtlasMesh export_cut(const Mesh& mesh, const ChartSet& charts, const Packing& packing,
+                     bool v_points_down) {
+  return CutExporter(mesh, charts, packing, v_points_down).run();
 }
 
 }  // namespace wrapatlas

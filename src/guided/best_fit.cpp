@@ -236,6 +236,22 @@ std::optional<BestFitPage::Spot> BestFitPage::place(const RasterShape& shape, do
   return {};
 }
 
+std::optional<BestFitPage::Spot> BestFitPage::place_alone(const RasterShape& shape,
+                                                          std::span<const double> angles) {
+  const Domain& domain = fine_.domain();
+  const RasterScale scale = raster_scale(0);
+  for (const double angle : angles) {
+    const ChartRaster raster =
+        rasterize(shape, scale, angle, 4 * std::max(domain.width, domain.height));
+    if (raster.width == 0) continue;
+    const Piece piece = bare_piece(raster);
+    if (!admits(domain, piece)) continue;
+    take(piece, 0, 0);
+    return Spot{place_on(frame_, piece.angle, piece.offset, 0, 0), piece.cells};
+  }
+  return {};
+}
+
 std::vector<double> best_fit_angles(double base, int count) {
   std::vector<double> angles;
   for (int i = 0; i < count; ++i) angles.push_back(base + 2 * std::numbers::pi * i / count);

@@ -37,6 +37,9 @@ class BestFitPage {
   };
   /// Puts a chart at the best of the angles (radians), or nowhere if none is found.
   std::optional<Spot> place(const RasterShape& shape, double area, std::span<const double> angles);
+  /// Puts a chart that place() found no room for into the corner of the empty page, where its exact
+  /// size decides; nowhere only if it is larger than the page at every angle.
+  std::optional<Spot> place_alone(const RasterShape& shape, std::span<const double> angles);
 
  private:
   struct Candidate {

@@ -6,7 +6,7 @@
 #include <numeric>
 
 #include "guided/best_fit.h"
-#include "guided/random.h"
+#include "guided/page_fill.h"
 #include "pack/parallel.h"
 
 namespace wrapatlas {
@@ -24,7 +24,7 @@ class BestFitSearch {
                 Record& record)
       : shapes_(shapes), options_(options), frame_(frame), record_(record) {
     for (const ChartShape& shape : shapes_) area_ += shape.area;
-    full_scale_ = std::sqrt(frame_.texels() / area_);
+    full_scale_ = full_scale();
     for (const ChartShape& shape : shapes_) {
       angles_.push_back(best_fit_angles(shape.base_angle, options.rotations));
     }
@@ -62,19 +62,25 @@ class BestFitSearch {
   }
 
  private:
+  [[nodiscard]] PageTask task() const {
+    return {shapes_,       angles_,           frame_,
+            options_.wrap, options_.coverage, care_for(shapes_.size(), hurried())};
+  }
+
+  /// At which the charts would fill the pages, or the largest of them one.
+  [[nodiscard]] double full_scale() const {
+    if (options_.pages <= 1) return std::sqrt(frame_.texels() / area_);
+    double largest = 0;
+    for (const ChartShape& shape : shapes_) largest = std::max(largest, shape.area);
+    return std::sqrt(frame_.texels() / std::max(area_ / options_.pages, largest));
+  }
+
   /// A chart order: by area, blurred a little for all numbers but 0.
   [[nodiscard]] std::vector<std::uint32_t> order_of(std::uint64_t number) const {
-    Random random(options_.seed * 7919 + number);
-    std::vector<double> size(shapes_.size());
-    constexpr double kBlur = 0.7;
-    for (std::size_t i = 0; i < size.size(); ++i) {
-      size[i] = shapes_[i].area * (number == 0 ? 1 : std::exp(kBlur * (random.unit() - 0.5)));
-    }
-    std::vector<std::uint32_t> order(shapes_.size());
-    std::iota(order.begin(), order.end(), 0U);
-    std::stable_sort(order.begin(), order.end(),
-                     [&](std::uint32_t a, std::uint32_t b) { return size[a] > size[b]; });
-    return order;
+    std::vector<std::uint32_t> charts(shapes_.size());
+    std::iota(charts.begin(), charts.end(), 0U);
+    return order_by_area(shapes_, std::move(charts),
+                         number == 0 ? 0 : options_.seed * 7919 + number);
   }
 
   /// Success is not monotone: a scale that failed leaves some room above it (see scale_search.h).
@@ -112,23 +118,16 @@ class BestFitSearch {
   template <typename Stop>
   bool attempt(double factor, const std::vector<std::uint32_t>& order, Stop stop) {
     if (factor <= best_factor_) return false;
-    BestFitPage page(frame_, options_.wrap, options_.coverage, factor * full_scale_,
-                     care_for(shapes_.size(), hurried()));
-    std::vector<Placement> placements(shapes_.size());
-    std::int64_t cells = 0;
-    for (const std::uint32_t chart : order) {
-      if (stop()) return false;
-      const auto spot = page.place(shapes_[chart].raster, shapes_[chart].area, angles_[chart]);
-      if (!spot) return false;
-      placements[chart] = spot->placement;
-      cells += spot->cells;
-    }
+    auto filling = fill_pages(task(), factor * full_scale_, order, options_.pages, stop);
+    if (!filling) return false;
     const std::lock_guard lock(mutex_);
     if (factor > found_factor_) {
       found_factor_ = factor;
-      record_.offer(make_packing(frame_, options_.wrap, factor * full_scale_, area_,
-                                 std::move(placements), cells),
-                    1);
+      // A larger scale is better, be a page empty or not.
+      record_.offer(
+          make_packing(frame_, options_.wrap, factor * full_scale_, area_,
+                       std::move(filling->placements), filling->covered(), options_.pages),
+          1);
     }
     return true;
   }

@@ -8,6 +8,7 @@
 #include "charts/hull.h"
 #include "guided/best_fit_search.h"
 #include "guided/lines.h"
+#include "guided/pages.h"
 #include "guided/record.h"
 #include "pack/aspects.h"
 
@@ -45,6 +46,9 @@ Result<Packing> pack_guided(std::span<const Chart> charts, const PackOptions& op
   if (!frames) return frames.error();
   double area = 0;
   for (const Chart& chart : charts) area += chart.area;
+  if (options.pages != 1 || options.density > 0) {
+    return pack_pages(make_shapes(charts), options, *frames);
+  }
   Record record(options);
   const bool separate = charts.size() <= kMostSeparated;
   std::optional<Error> failure;
@@ -70,16 +74,15 @@ Result<Packing> pack_guided(std::span<const Chart> charts, const PackOptions& op
     Lines lines(shapes, options, *frames, record);
     if (record.best()) lines.begin_with(*record.best(), false);
     lines.run();
-  } else if (charts.size() <= kMostImproved && frames->size() == 1) {
-    search_best_fit(shapes, options, *frames, record, false);
-    Lines lines(shapes, options, *frames, record);
-    if (record.best() && record.timed()) {
+  } else {
+    const bool improve = charts.size() <= kMostImproved && frames->size() == 1;
+    search_best_fit(shapes, options, *frames, record, !improve);
+    if (!record.best() && !record.stopped()) take_first();
+    if (improve && record.best() && record.timed()) {
+      Lines lines(shapes, options, *frames, record);
       lines.begin_with(*record.best(), true);
       lines.run();
     }
-  } else {
-    search_best_fit(shapes, options, *frames, record, true);
-    if (!record.best() && !record.stopped()) take_first();
   }
   if (!record.best()) {
     if (failure) return *failure;

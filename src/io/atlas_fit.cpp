@@ -98,7 +98,7 @@ Status check_fit(const Mesh& mesh, const AtlasMesh& atlas) {
 
 AtlasMesh turn_upside_down(AtlasMesh atlas) {
   for (Vec2& uv : atlas.texcoords) uv.y = 1 - uv.y;
-  if (!wraps_v(atlas.wrap)) return atlas;
+  if (!wraps_v(atlas.wrap) || atlas.pages > 1) return atlas;
   TexcoordSets sets(atlas);
   std::vector<double> lowest(atlas.texcoords.size(), std::numeric_limits<double>::infinity());
   for (std::uint32_t i = 0; i < atlas.texcoords.size(); ++i) {

@@ -44,6 +44,15 @@ AxisGrid free_axis(int length, bool wrap, double inset, double cell) {
   return axis;
 }
 
+/// As kPaddingSlack, where UVs are larger numbers: two charts may each be moved to the beginning of
+/// their tile, and then be rounded (atlas/chart_uvs.cpp).
+double pages_slack(int width, int height, int pages) {
+  if (pages == 1) return 0;
+  constexpr double kPair = 2, kMoved = 2, kRounded = 1;
+  return kPair * (kMoved + kRounded) * page_rounding(pages > 0 ? pages : kMostPages) *
+         std::hypot(width, height);
+}
+
 /// The largest number of blocks to a cell, up to the wish, that divides both wrapping lengths.
 int blocks_to_a_cell(int width, int height, double wish, const PackOptions& options) {
   const auto divides = [&](int blocks) {
@@ -95,7 +104,10 @@ Result<Frame> make_frame(int texture_width, int texture_height, double cell,
   frame.cell = {x.cell, y.cell};
   frame.origin = {x.origin, y.origin};
   if (options.coverage == Coverage::conservative || options.padding > 0) {
-    const double slack = options.coverage == Coverage::conservative ? kPaddingSlack : 0;
+    const double slack =
+        options.coverage == Coverage::conservative
+            ? kPaddingSlack + pages_slack(texture_width, texture_height, options.pages)
+            : 0;
     frame.growth = (options.padding + slack) / 2 / std::min(x.cell, y.cell);
   }
   return frame;
@@ -108,17 +120,19 @@ Placement place_on(const Frame& frame, double angle, Vec2 offset, int x, int y) 
 }
 
 Packing make_packing(const Frame& frame, Wrap wrap, double scale, double area,
-                     std::vector<Placement> placements, std::int64_t covered) {
+                     std::vector<Placement> placements, std::int64_t covered, int pages) {
   Packing packing;
   packing.width = frame.texture_width;
   packing.height = frame.texture_height;
   packing.wrap = wrap;
   packing.scale = scale;
   packing.placements = std::move(placements);
-  packing.efficiency = scale * scale * area / frame.texels();
+  packing.pages = pages;
+  packing.efficiency = scale * scale * area / (pages * frame.texels());
   packing.grid_width = frame.width;
   packing.grid_height = frame.height;
-  packing.raster_efficiency = static_cast<double>(covered) / (double(frame.width) * frame.height);
+  packing.raster_efficiency =
+      static_cast<double>(covered) / (pages * double(frame.width) * frame.height);
   return packing;
 }
 

@@ -28,9 +28,10 @@ Result<Frame> make_frame(int texture_width, int texture_height, double cell,
 /// A chart whose raster has its cell (0,0) on cell (x, y) of the grid. `offset`: ChartRaster's.
 Placement place_on(const Frame& frame, double angle, Vec2 offset, int x, int y);
 
-/// A finished packing on a frame. `area`: of all charts, input units^2; `covered`: cells.
+/// A finished packing on pages of one frame. `area`: of all charts, input units^2; `covered`:
+/// cells.
 Packing make_packing(const Frame& frame, Wrap wrap, double scale, double area,
-                     std::vector<Placement> placements, std::int64_t covered);
+                     std::vector<Placement> placements, std::int64_t covered, int pages = 1);
 
 /// Cells along a side: positions up to twice that must fit 16 bits (see slide.h).
 inline constexpr int kMaxGridSide = 16383;

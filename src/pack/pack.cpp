@@ -33,6 +33,24 @@ Error usage(std::string what, std::string remedy) {
   return {ErrorKind::usage, "", std::move(what), std::move(remedy)};
 }
 
+Status check_pages(const PackOptions& options) {
+  if (!(options.density >= 0) || !std::isfinite(options.density)) {
+    return usage(fmt::format("a density of {} is out of range", options.density),
+                 "use texels per UV unit, or 0 to seek the scale");
+  }
+  if (options.pages < 0 || options.pages > kMostPages) {
+    return usage(fmt::format("{} pages are out of range", options.pages),
+                 fmt::format("use 1 to {}", kMostPages));
+  }
+  if (options.pages == 0 && options.density == 0) {
+    return usage("any number of pages, and no density", "give one of them");
+  }
+  if (options.method != Method::guided && (options.pages != 1 || options.density > 0)) {
+    return usage("this packer has one page, and seeks the scale", "use the method guided");
+  }
+  return Done{};
+}
+
 Status check_options(const PackOptions& options) {
   if (options.width < 1 || options.height < 1 || options.width > 65536 || options.height > 65536) {
     return usage(fmt::format("resolution {} x {} is out of range", options.width, options.height),
@@ -70,7 +88,7 @@ Status check_options(const PackOptions& options) {
   if (!(options.time >= 0 && options.time <= 1e6) || options.moves < 0) {
     return usage("a search has to have a time from 0 to 1e6 seconds and 0 or more moves", "");
   }
-  return Done{};
+  return check_pages(options);
 }
 
 std::vector<double> chart_angles(const Chart& chart, const PackOptions& options) {

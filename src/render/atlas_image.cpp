@@ -149,14 +149,13 @@ void draw_frames(Image& image, const TileFrame& frame, Wrap wrap) {
              wraps_u(wrap) && !repeated, wraps_v(wrap) && !repeated);
 }
 
-}  // namespace
-
-Image draw_atlas(std::span<const Chart> charts, const Packing& packing,
-                 const PictureOptions& options) {
+Image draw_page(std::span<const Chart> charts, const Packing& packing, int page,
+                const PictureOptions& options) {
   const TileFrame frame = tile_frame(packing, options);
   Image tile = blank_image(frame.width, frame.height);
   Painter painter(tile, frame, options);
   for (std::size_t i = 0; i < std::min(charts.size(), packing.placements.size()); ++i) {
+    if (packing.placements[i].page != page) continue;
     const auto placed =
         place_chart(charts[i], packing.transform(i), packing, frame, options.v_points_down);
     if (placed) painter.paint(*placed, i, packing.wrap);
@@ -172,6 +171,20 @@ Image draw_atlas(std::span<const Chart> charts, const Packing& packing,
   }
   draw_frames(tile, frame, packing.wrap);
   return tile;
+}
+
+}  // namespace
+
+Image draw_atlas(std::span<const Chart> charts, const Packing& packing,
+                 const PictureOptions& options) {
+  if (packing.pages <= 1) return draw_page(charts, packing, 0, options);
+  const PageGrid grid = page_grid(packing, options);
+  Image image = blank_image(grid.width, grid.height);
+  for (int page = 0; page < packing.pages; ++page) {
+    copy_tile(draw_page(charts, packing, page, grid.options), image, grid.left(page),
+              grid.top(page));
+  }
+  return image;
 }
 
 Image side_by_side(std::span<const Image> images, int gap) {

@@ -43,6 +43,30 @@ TileFrame tile_frame(const Packing& packing, const PictureOptions& options) {
   return frame;
 }
 
+PageGrid page_grid(const Packing& packing, const PictureOptions& options) {
+  constexpr int kLongest = 16384, kSmallestGap = 4, kPageInGaps = 64;
+  PageGrid grid;
+  grid.options = options;
+  grid.options.size = drawn_size(options);
+  const int columns = std::min(packing.pages, kPageColumns);
+  grid.rows = page_tile(std::max(packing.pages, 1) - 1).row + 1;
+  const auto lay_out = [&] {
+    const TileFrame frame = tile_frame(packing, grid.options);
+    grid.page_width = frame.columns * frame.width;
+    grid.page_height = frame.rows * frame.height;
+    grid.gap = packing.pages > 1 ? std::max(kSmallestGap, grid.options.size / kPageInGaps) : 0;
+    grid.width = columns * (grid.page_width + grid.gap) + grid.gap;
+    grid.height = grid.rows * (grid.page_height + grid.gap) + grid.gap;
+  };
+  lay_out();
+  if (packing.pages > 1 && std::max(grid.width, grid.height) > kLongest) {
+    const double shrink = double{1} * kLongest / std::max(grid.width, grid.height);
+    grid.options.size = std::max(kMinSize, static_cast<int>(grid.options.size * shrink) - 1);
+    lay_out();
+  }
+  return grid;
+}
+
 std::optional<PlacedChart> place_chart(const Chart& chart, const Similarity& to_texels,
                                        const Packing& packing, const TileFrame& frame,
                                        bool v_points_down) {

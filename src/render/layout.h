@@ -22,6 +22,24 @@ struct TileFrame {
 
 TileFrame tile_frame(const Packing& packing, const PictureOptions& options);
 
+/// Where the pages of a packing lie in the picture: as in UV space, ten to a row, rows upwards.
+struct PageGrid {
+  PictureOptions options;  ///< of one page: its size may be less, to keep the picture small
+  int page_width = 0, page_height = 0;
+  int width = 0, height = 0;  ///< of the picture, pixels
+  int gap = 0;                ///< between and around the pages; 0 for a single one
+  int rows = 1;
+
+  [[nodiscard]] int left(int page) const {
+    return gap + page_tile(page).column * (page_width + gap);
+  }
+  [[nodiscard]] int top(int page) const {
+    return gap + (rows - 1 - page_tile(page).row) * (page_height + gap);
+  }
+};
+
+PageGrid page_grid(const Packing& packing, const PictureOptions& options);
+
 /// A chart in pixels, y down, shifted so that the smallest corner of its box lies in the tile (on
 /// axes that wrap).
 struct PlacedChart {

@@ -26,6 +26,7 @@ Status check_options(const CheckOptions& o) {
   if (!(o.tolerance >= 0 && o.tolerance < 1e30)) {
     return bad(fmt::format("a tolerance of {} texels", o.tolerance), "give a number from 0");
   }
+  if (o.pages < 1) return bad(fmt::format("{} pages", o.pages), "give a number from 1");
   return Done{};
 }
 
@@ -35,6 +36,12 @@ Error with_prefix(const char* whose, Error error) {
 }
 
 }  // namespace
+
+/// Which pages the charts are on; then all of them are judged as if they were on the first.
+void Checker::find_tiles(const std::vector<std::uint32_t>& face_group, std::size_t groups) {
+  if (options_.pages == 1) return;
+  face_tile_ = tiles_of(atlas_, face_group, groups, options_.v_points_down);
+}
 
 /// Without a reference: charts are what fits together, also across the border.
 void Checker::take_pieces_for_charts(const FaceCharts& own) {
@@ -59,12 +66,15 @@ Result<CheckReport> Checker::run() {
   }
   FaceCharts pieces;
   if (reference_ == nullptr) {
-    take_pieces_for_charts(connect_faces(atlas_, atlas_.face_object));
-  } else if (Status status = compare(pieces); !status) {
-    return status.error();
+    pieces = connect_faces(atlas_, atlas_.face_object);
+    find_tiles(pieces.of_face, pieces.count);
+    take_pieces_for_charts(pieces);
+  } else {
+    if (Status status = compare(pieces); !status) return status.error();
+    find_tiles(face_chart_, report_.charts);
   }
-  rounding_ = rounding_of(atlas_, face_chart_, report_.charts, size_);
-  items_ = items_of(atlas_, face_chart_, size_);
+  make_items();
+  check_tiles();
   check_sides();
   if (reference_ != nullptr) {
     fit(pieces.of_face);

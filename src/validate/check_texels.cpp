@@ -12,6 +12,41 @@ double modulo(double x, double period) { return x - std::floor(x / period) * per
 
 }  // namespace
 
+/// Page by page.
+void Checker::make_items() {
+  rounding_ = rounding_of(atlas_, face_chart_, report_.charts, size_, face_tile_);
+  if (!face_tile_.empty()) move_to_first_tile(moved_, face_tile_, options_.v_points_down);
+  items_ = items_of(atlas_, face_chart_, size_);
+  if (face_tile_.empty()) return;
+  std::stable_sort(items_.begin(), items_.end(), [this](const Item& a, const Item& b) {
+    return face_tile_[a.face] < face_tile_[b.face];
+  });
+  report_.pages = items_.empty() ? 0 : 1;
+  for (std::size_t i = 1; i < items_.size(); ++i) {
+    if (face_tile_[items_[i].face] != face_tile_[items_[i - 1].face]) ++report_.pages;
+  }
+}
+
+/// " on page 2", where there are several.
+std::string Checker::on_page(std::uint32_t face) const {
+  if (face_tile_.empty()) return "";
+  return fmt::format(" on page {}", face_tile_[face].page());
+}
+
+void Checker::check_tiles() {
+  std::vector<bool> seen(report_.charts, false);
+  for (const Item& item : items_) {
+    if (face_tile_.empty() || seen[item.chart]) continue;
+    seen[item.chart] = true;
+    const Tile tile = face_tile_[item.face];
+    if (tile.is_page(options_.pages)) continue;
+    findings_.add({Violation::bounds, item.chart, kNone, item.face, kNone, 0,
+                   fmt::format("chart {} begins at u = {}, v = {} or a little beyond: that is none "
+                               "of {} pages (face {})",
+                               item.chart, tile.column, tile.row, options_.pages, item.face)});
+  }
+}
+
 void Checker::check_sides() {
   double area = 0;
   struct Worst {
@@ -36,35 +71,60 @@ void Checker::check_sides() {
       }
     }
   }
-  report_.efficiency = area / (size_.x * size_.y);
+  const auto pages = static_cast<double>(std::max<std::size_t>(1, report_.pages));
+  report_.efficiency = area / (pages * size_.x * size_.y);
   for (std::uint32_t i = 0; i < outside.size(); ++i) {
     const double tolerance = kSlack + rounding_[i];
     if (outside[i].clearance < -tolerance) {
       const auto& [clearance, face, at] = outside[i];
       findings_.add(
           {Violation::bounds, i, kNone, face, kNone, -clearance,
-           fmt::format("chart {} lies {:.6g} texels outside the atlas at ({:.3f}, {:.3f}) "
+           fmt::format("chart {} lies {:.6g} texels outside the atlas at ({:.3f}, {:.3f}){} "
                        "(face {})",
-                       i, -clearance, at.x, at.y, face)});
+                       i, -clearance, at.x, at.y, on_page(face), face)});
     } else if (near[i].clearance < options_.margin - tolerance) {
       const auto& [clearance, face, at] = near[i];
       findings_.add(
           {Violation::margin, i, kNone, face, kNone, clearance,
-           fmt::format("chart {} comes within {:.6g} texels of a side at ({:.3f}, {:.3f}) "
+           fmt::format("chart {} comes within {:.6g} texels of a side at ({:.3f}, {:.3f}){} "
                        "(face {}); the margin is {:g}",
-                       i, clearance, at.x, at.y, face, options_.margin)});
+                       i, clearance, at.x, at.y, on_page(face), face, options_.margin)});
     }
   }
 }
 
+/// What `find` says of each page, as if it had looked at all of them at once.
+Result<ClosePairs> Checker::find_on_pages(const FindPairs& find) const {
+  if (face_tile_.empty()) return find(items_);
+  ClosePairs all;
+  all.smallest_gap = std::numeric_limits<double>::infinity();
+  std::uint32_t begin = 0, end = 0;
+  for (; begin < items_.size(); begin = end) {
+    const Tile tile = face_tile_[items_[begin].face];
+    while (end < items_.size() && face_tile_[items_[end].face] == tile) ++end;
+    auto close = find(std::span(items_).subspan(begin, end - begin));
+    if (!close) return close.error();
+    for (PairRecord& record : close->records) {
+      record.item_a += begin;
+      record.item_b += begin;
+      all.records.push_back(record);
+    }
+    all.smallest_gap = std::min(all.smallest_gap, close->smallest_gap);
+    all.complete = all.complete && close->complete;
+  }
+  return all;
+}
+
 Status Checker::check_distances() {
-  const double spacing = std::sqrt(size_.x * size_.y / static_cast<double>(items_.size() + 1));
+  const double spacing = std::sqrt(static_cast<double>(std::max<std::size_t>(1, report_.pages)) *
+                                   size_.x * size_.y / static_cast<double>(items_.size() + 1));
   const double reach = options_.padding + std::min(1.0, spacing);
   const Vec2 period{wraps_[0] ? size_.x : 0, wraps_[1] ? size_.y : 0};
-  auto close =
-      find_close_pairs(items_, period, {options_.padding, reach, rounding_, options_.threads});
+  auto close = find_on_pages([&](std::span<const Item> items) {
+    return find_close_pairs(items, period, {options_.padding, reach, rounding_, options_.threads});
+  });
   if (!close) return close.error();
-  report_.smallest_gap = close->smallest_gap;
+  report_.smallest_gap = std::min(close->smallest_gap, reach);
   report_.gap_reach = reach;
   for (const PairRecord& record : close->records) {
     Finding finding{record.kind,
@@ -96,8 +156,9 @@ std::string Checker::describe(const PairRecord& record) const {
   }
   if (wraps_[0]) at.x = modulo(at.x, size_.x);
   if (wraps_[1]) at.y = modulo(at.y, size_.y);
-  const std::string where = fmt::format("at ({:.3f}, {:.3f}) (faces {} and {})", at.x, at.y,
-                                        items_[record.item_a].face, items_[record.item_b].face);
+  const std::uint32_t face_a = items_[record.item_a].face, face_b = items_[record.item_b].face;
+  const std::string where = fmt::format("at ({:.3f}, {:.3f}){} (faces {} and {})", at.x, at.y,
+                                        on_page(face_a), face_a, face_b);
   const bool across = record.shift_x != 0 || record.shift_y != 0;
   const std::string who =
       record.chart_a != record.chart_b
@@ -112,7 +173,9 @@ std::string Checker::describe(const PairRecord& record) const {
 }
 
 Status Checker::remark_folds() {
-  auto folds = find_folds(items_, {0, 0, rounding_, options_.threads});
+  auto folds = find_on_pages([this](std::span<const Item> items) {
+    return find_folds(items, {0, 0, rounding_, options_.threads});
+  });
   if (!folds) return folds.error();
   std::size_t number = 0;
   for (const PairRecord& fold : folds->records) {

@@ -48,21 +48,24 @@ std::vector<Item> items_of(const Mesh& mesh, const std::vector<std::uint32_t>& f
 }
 
 std::vector<double> rounding_of(const Mesh& mesh, const std::vector<std::uint32_t>& face_chart,
-                                std::size_t charts, Vec2 size) {
+                                std::size_t charts, Vec2 size, std::span<const Tile> face_tile) {
   std::vector<Vec2> largest(charts);
   for (std::size_t f = 0; f < mesh.face_count(); ++f) {
     if (face_chart[f] == kNone) continue;
+    const Tile tile = face_tile.empty() ? Tile{} : face_tile[f];
+    const Vec2 limit{kLargestRoundedUv + std::abs(tile.column),
+                     kLargestRoundedUv + std::abs(tile.row)};
     Vec2& most = largest[face_chart[f]];
     for (std::uint32_t c = mesh.face_begin[f]; c < mesh.face_begin[f + 1]; ++c) {
       const Vec2 uv = mesh.texcoords[mesh.corner_texcoord[c]];
-      most = {std::max(most.x, std::abs(uv.x)), std::max(most.y, std::abs(uv.y))};
+      most = {std::max(most.x, std::min(std::abs(uv.x), limit.x)),
+              std::max(most.y, std::min(std::abs(uv.y), limit.y))};
     }
   }
   const double relative = stored_precision(mesh);
   std::vector<double> rounding(charts);
   for (std::size_t i = 0; i < charts; ++i) {
-    rounding[i] = relative * std::hypot(size.x * std::min(largest[i].x, kLargestRoundedUv),
-                                        size.y * std::min(largest[i].y, kLargestRoundedUv));
+    rounding[i] = relative * std::hypot(size.x * largest[i].x, size.y * largest[i].y);
   }
   return rounding;
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "validate/divide.h"
+#include "validate/tiles.h"
 #include "wrapatlas/mesh.h"
 
 namespace wrapatlas::validate {
@@ -16,8 +17,10 @@ std::vector<Item> items_of(const Mesh& mesh, const std::vector<std::uint32_t>& f
 
 /// Per chart: the distance in units of `size` by which storing may have moved a corner. Where all
 /// UVs of the mesh are floats that is half a float's last bit, else half a unit of the ninth
-/// decimal digit; UVs beyond 4 get no more than those at 4.
+/// decimal digit; UVs beyond 4 (counted from the face's tile, if `face_tile` is not empty) get no
+/// more than those at 4.
 std::vector<double> rounding_of(const Mesh& mesh, const std::vector<std::uint32_t>& face_chart,
-                                std::size_t charts, Vec2 size);
+                                std::size_t charts, Vec2 size,
+                                std::span<const Tile> face_tile = {});
 
 }  // namespace wrapatlas::validate

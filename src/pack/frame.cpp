@@ -58,6 +58,12 @@ int blocks_to_a_cell(int width, int height, double wish, const PackOptions& opti
 
 }  // namespace
 
+double padding_slack(int texture_width, int texture_height) {
+  constexpr double kLeast = 1.0 / 128, kLargestUv = 4, kFloatHalfUnit = 1.0 / (1 << 24);
+  return std::max(kLeast,
+                  2 * kFloatHalfUnit * kLargestUv * std::hypot(texture_width, texture_height));
+}
+
 Result<Frame> make_frame(int texture_width, int texture_height, double cell,
                          const PackOptions& options) {
   const double margin = options.margin < 0 ? options.padding / 2 : options.margin;
@@ -95,7 +101,9 @@ Result<Frame> make_frame(int texture_width, int texture_height, double cell,
   frame.cell = {x.cell, y.cell};
   frame.origin = {x.origin, y.origin};
   if (options.coverage == Coverage::conservative || options.padding > 0) {
-    const double slack = options.coverage == Coverage::conservative ? kPaddingSlack : 0;
+    const double slack = options.coverage == Coverage::conservative
+                             ? padding_slack(texture_width, texture_height)
+                             : 0;
     frame.growth = (options.padding + slack) / 2 / std::min(x.cell, y.cell);
   }
   return frame;

@@ -28,6 +28,7 @@ class Checker {
 
  private:
   void take_pieces_for_charts(const FaceCharts& own);
+  void take_items(TexelItems found);
   Status compare(FaceCharts& pieces);
   void fit(const std::vector<std::uint32_t>& face_piece);
   void check_areas_of_faces();

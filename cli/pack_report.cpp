@@ -125,6 +125,15 @@ void print_pack_notes(const PackArguments& arguments, const Model& model, const 
     note(fmt::format("{} no UVs and {} as {}", quantity(bare, "face has", "faces have"),
                      bare == 1 ? "stays" : "stay", bare == 1 ? "it is" : "they are"));
   }
+  if (charts.crossing_faces == 1) {
+    note(fmt::format("face {} crosses itself in UV: its convex hull is kept free for it",
+                     charts.first_crossing_face));
+  } else if (charts.crossing_faces > 1) {
+    note(
+        fmt::format("{} faces cross themselves in UV (face {} is the first): the convex hull of "
+                    "each is kept free for it",
+                    charts.crossing_faces, charts.first_crossing_face));
+  }
   if (folded > 0) {
     note(fmt::format("{} in the input",
                      quantity(folded, "chart overlaps itself", "charts overlap themselves")));

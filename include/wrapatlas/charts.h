@@ -61,6 +61,8 @@ struct ChartSet {
   std::uint32_t self_overlapping = 0;
   std::uint32_t degenerate = 0;  ///< charts of zero area
   std::uint32_t faces_without_uv = 0;
+  std::uint32_t crossing_faces = 0;  ///< whose UV sides cross: they take up their convex hull
+  std::uint32_t first_crossing_face = kNone;
 
   [[nodiscard]] double total_area() const;
 };

@@ -2,6 +2,7 @@
 #include "wrapatlas/charts.h"
 
 #include "charts/edge_groups.h"
+#include "charts/face_cover.h"
 #include "charts/stacked.h"
 #include "charts/union_find.h"
 #include "charts/uv_vertices.h"
@@ -85,7 +86,7 @@ void make_charts(const Mesh& mesh, const UvVertices& vertices, std::uint32_t cha
         corners.push_back(vertices.uv[v]);
       }
       cut.clear();
-      triangulate_polygon(corners, cut);
+      if (cover_face(corners, cut) && set.crossing_faces++ == 0) set.first_crossing_face = face;
       for (const auto& [i, j, k] : cut) {
         triangles.push_back({set.corner_point[begin + i], set.corner_point[begin + j],
                              set.corner_point[begin + k]});

@@ -91,9 +91,37 @@ class FreshPrimitive {
     }
     triangles_.clear();
     triangulate_piece(flattened(), triangles_);
+    if (with_texcoords_ && triangles_.size() > 1) keep_to_texcoords();
     for (const auto& triangle : triangles_) {
       for (const std::uint32_t offset : triangle) indices_.push_back(corners_[offset]);
     }
+  }
+
+  /// Triangles that are good in space may lie beside the polygon in the texture, where there is
+  /// room for the polygon alone.
+  void keep_to_texcoords() {
+    std::vector<Vec2> flat;
+    for (const std::uint32_t vertex : corners_) flat.push_back({uvs_[vertex][0], uvs_[vertex][1]});
+    if (!any_turned_over(flat, triangles_)) return;
+    std::vector<std::array<std::uint32_t, 3>> others;
+    triangulate_piece(flat, others);
+    if (!any_turned_over(flat, others)) triangles_ = std::move(others);
+  }
+
+  /// By more than rounding.
+  static bool any_turned_over(const std::vector<Vec2>& points,
+                              const std::vector<std::array<std::uint32_t, 3>>& triangles) {
+    Box2 box;
+    double area = 0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      box.add(points[i]);
+      area += cross(points[i] - points[0], points[(i + 1) % points.size()] - points[0]);
+    }
+    const double noise = 1e-6 * dot(box.size(), box.size());
+    return std::any_of(triangles.begin(), triangles.end(), [&](const auto& t) {
+      const double own = signed_area2(points[t[0]], points[t[1]], points[t[2]]);
+      return (area < 0 ? -own : own) < -noise;
+    });
   }
 
   /// The face seen along the longest axis of its normal (Newell's).

@@ -44,8 +44,8 @@ AxisGrid free_axis(int length, bool wrap, double inset, double cell) {
   return axis;
 }
 
-/// As kPaddingSlack, where UVs are larger numbers: two charts may each be moved to the beginning of
-/// their tile, and then be rounded (atlas/chart_uvs.cpp).
+/// As padding_slack(), where UVs are larger numbers: two charts may each be moved to the beginning
+/// of their tile, and then be rounded (atlas/chart_uvs.cpp).
 double pages_slack(int width, int height, int pages) {
   if (pages == 1) return 0;
   constexpr double kPair = 2, kMoved = 2, kRounded = 1;
@@ -66,6 +66,12 @@ int blocks_to_a_cell(int width, int height, double wish, const PackOptions& opti
 }
 
 }  // namespace
+
+double padding_slack(int texture_width, int texture_height) {
+  constexpr double kLeast = 1.0 / 128, kLargestUv = 4, kFloatHalfUnit = 1.0 / (1 << 24);
+  return std::max(kLeast,
+                  2 * kFloatHalfUnit * kLargestUv * std::hypot(texture_width, texture_height));
+}
 
 Result<Frame> make_frame(int texture_width, int texture_height, double cell,
                          const PackOptions& options) {
@@ -104,10 +110,10 @@ Result<Frame> make_frame(int texture_width, int texture_height, double cell,
   frame.cell = {x.cell, y.cell};
   frame.origin = {x.origin, y.origin};
   if (options.coverage == Coverage::conservative || options.padding > 0) {
-    const double slack =
-        options.coverage == Coverage::conservative
-            ? kPaddingSlack + pages_slack(texture_width, texture_height, options.pages)
-            : 0;
+    const double slack = options.coverage == Coverage::conservative
+                             ? padding_slack(texture_width, texture_height) +
+                                   pages_slack(texture_width, texture_height, options.pages)
+                             : 0;
     frame.growth = (options.padding + slack) / 2 / std::min(x.cell, y.cell);
   }
   return frame;

@@ -36,7 +36,8 @@ Packing make_packing(const Frame& frame, Wrap wrap, double scale, double area,
 /// Cells along a side: positions up to twice that must fit 16 bits (see slide.h).
 inline constexpr int kMaxGridSide = 16383;
 
-/// Texels of distance added to the padding so that it still holds after UVs are rounded to float.
-inline constexpr double kPaddingSlack = 1.0 / 128;
+/// Texels of distance added to the padding so that it still holds after UVs are rounded to float:
+/// two charts at u = v = 4 may each be off by half the last bit along both axes.
+double padding_slack(int texture_width, int texture_height);
 
 }  // namespace wrapatlas

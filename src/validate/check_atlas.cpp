@@ -59,6 +59,18 @@ void Checker::take_pieces_for_charts(const FaceCharts& own) {
   }
 }
 
+void Checker::take_items(TexelItems found) {
+  items_ = std::move(found.items);
+  std::size_t number = 0;
+  for (const std::uint32_t face : found.crossing_faces) {
+    findings_.remark(number++,
+                     fmt::format("face {} crosses itself in the texture: it counts as its "
+                                 "convex hull",
+                                 face));
+  }
+  findings_.remark_rest(number, "faces cross themselves");
+}
+
 Result<CheckReport> Checker::run() {
   report_.faces = atlas_.face_count();
   for (std::size_t f = 0; f < atlas_.face_count(); ++f) {

@@ -88,8 +88,14 @@ void Checker::fit(const std::vector<std::uint32_t>& face_piece) {
   fits_ = fit_charts({atlas_, match_, face_chart_, face_piece, original_.count, size_, may_shift,
                       rounding_, options_.tolerance});
   report_.scale = fits_.scale;
+  std::size_t untold = 0;
   for (std::uint32_t i = 0; i < fits_.charts.size(); ++i) {
     const ChartFit& chart = fits_.charts[i];
+    if (chart.untold) {
+      findings_.remark(untold++, fmt::format("chart {} was cut where its corners cannot be told "
+                                             "apart in space: its shape was not compared",
+                                             i));
+    }
     if (chart.verdict == ChartFit::Verdict::mirrored) {
       findings_.add({Violation::mirrored, i, kNone, chart.worst_face, kNone, chart.residual,
                      fmt::format("chart {} is mirrored", i)});
@@ -106,6 +112,7 @@ void Checker::fit(const std::vector<std::uint32_t>& face_piece) {
       }
     }
   }
+  findings_.remark_rest(untold, "charts were not compared");
 }
 
 /// In space a missing sliver can drown in the rounding of positions; in the texture it is seen.
@@ -128,11 +135,17 @@ void Checker::check_areas_of_faces() {
     }
     if (!judged) continue;
     const ChartFit& fit = fits_.charts[chart];
-    const Outline whole = outline_of(*reference_, source, {fit.scale, fit.scale});
+    // Positions that do not tell corners apart do not tell the chart's own scale either.
+    const bool own = fit.scale > 0;
+    const double scale = own ? fit.scale : fits_.scale;
+    if (!(scale > 0)) continue;
+    const double doubt = own ? fit.scale_doubt : fits_.scale_doubt;
+    const Outline whole = outline_of(*reference_, source, {scale, scale});
     const double sign = whole.area < 0 ? -1 : 1;
-    runs.push_back({first, source, chart, sign * (whole.area - pieces.area),
-                    (options_.tolerance + 3 * rounding_[chart]) * pieces.length +
-                        2 * fit.scale_doubt * std::abs(whole.area)});
+    runs.push_back(
+        {first, source, chart, sign * (whole.area - pieces.area),
+         (options_.tolerance + 3 * rounding_[chart]) * std::max(pieces.length, whole.length) +
+             2 * doubt * std::abs(whole.area)});
   }
   // A sliver between two faces of a chart may have been counted as one of the other face.
   const auto lacking = [&](std::size_t i, const Run& near, double sign) {
@@ -158,7 +171,8 @@ Status Checker::find_stacks_of_reference() {
   const double unit = fits_.scale > 0 ? fits_.scale : 1;
   const std::vector<double> rounding =
       rounding_of(*reference_, original_.of_face, original_.count, {unit, unit});
-  const std::vector<Item> items = items_of(*reference_, original_.of_face, {unit, unit});
+  const std::vector<Item> items =
+      items_of(*reference_, original_.of_face, {unit, unit}, rounding).items;
   auto stacks = find_stacks(items, original_.count, {0, 0, rounding, options_.threads});
   if (!stacks) return stacks.error();
   std::copy(stacks->begin(), stacks->end(), stack_.begin());

@@ -16,7 +16,7 @@ double modulo(double x, double period) { return x - std::floor(x / period) * per
 void Checker::make_items() {
   rounding_ = rounding_of(atlas_, face_chart_, report_.charts, size_, face_tile_);
   if (!face_tile_.empty()) move_to_first_tile(moved_, face_tile_, options_.v_points_down);
-  items_ = items_of(atlas_, face_chart_, size_);
+  take_items(items_of(atlas_, face_chart_, size_, rounding_));
   if (face_tile_.empty()) return;
   std::stable_sort(items_.begin(), items_.end(), [this](const Item& a, const Item& b) {
     return face_tile_[a.face] < face_tile_[b.face];

@@ -34,6 +34,7 @@ class Checker {
 
   void find_tiles(const std::vector<std::uint32_t>& face_group, std::size_t groups);
   void take_pieces_for_charts(const FaceCharts& own);
+  void take_items(TexelItems found);
   Status compare(FaceCharts& pieces);
   void fit(const std::vector<std::uint32_t>& face_piece);
   void check_areas_of_faces();

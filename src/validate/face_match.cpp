@@ -14,6 +14,7 @@ namespace wrapatlas::validate {
 namespace {
 
 constexpr double kSameTexcoord = 1e-6;   // of the atlas's side
+constexpr double kSliver = 1e-5;         // of a face's area in the texture
 constexpr std::size_t kMostUnsure = 64;  // slivers in a row; keeps the time linear
 
 double texcoord_area(const Mesh& mesh, std::size_t face) {
@@ -34,24 +35,32 @@ bool same_up_to_periods(Vec2 a, Vec2 b) {
          std::abs(d.y - std::round(d.y)) <= kSameTexcoord;
 }
 
+/// Two ways to sum the areas of faces. The pieces of a face that crosses itself wind both ways and
+/// sum to its own area with their signs only; where charts are mirrored, signs cancel too much.
+enum class Areas { without_sign, with_sign };
+
+double total_area(const Mesh& mesh, Areas areas) {
+  double sum = 0;
+  for (std::size_t f = 0; f < mesh.face_count(); ++f) {
+    if (!has_texcoords(mesh, f)) continue;
+    const double area = texcoord_area(mesh, f);
+    sum += areas == Areas::with_sign ? area : std::abs(area);
+  }
+  return std::abs(sum);
+}
+
 /// How many faces in a row, from a first one on, are the pieces of a face of the reference.
 class Tiling {
  public:
-  Tiling(const Mesh& atlas, const Mesh& reference, Vec2 size)
-      : atlas_(atlas), reference_(reference), texels_(size.x * size.y) {
-    double of_atlas = 0, of_reference = 0;
-    for (std::size_t f = 0; f < atlas.face_count(); ++f) {
-      if (has_texcoords(atlas, f)) of_atlas += std::abs(texcoord_area(atlas, f));
-    }
-    for (std::size_t f = 0; f < reference.face_count(); ++f) {
-      if (has_texcoords(reference, f)) of_reference += std::abs(texcoord_area(reference, f));
-    }
-    area_ratio_ = of_reference > 0 ? of_atlas / of_reference : 0;
+  Tiling(const Mesh& atlas, const Mesh& reference, PositionStore store, Vec2 size, Areas areas)
+      : atlas_(atlas), reference_(reference), store_(store), texels_(size.x * size.y) {
+    const double of_reference = total_area(reference, areas);
+    area_ratio_ = of_reference > 0 ? total_area(atlas, areas) / of_reference : 0;
   }
 
   /// 0 if there is no tiling.
   [[nodiscard]] std::size_t count(std::size_t reference_face, std::size_t first) const {
-    const ReferenceFace face(reference_, reference_face);
+    const ReferenceFace face(reference_, reference_face, store_);
     const std::size_t tiles = fill(face, reference_face, first);
     if (tiles == 0) return 0;
     return tiles + slivers(face, reference_face, first, tiles);
@@ -61,32 +70,62 @@ class Tiling {
   /// The fewest pieces whose area is that of the face, to within rounding.
   std::size_t fill(const ReferenceFace& face, std::size_t reference_face, std::size_t first) const {
     if (first >= atlas_.face_count()) return 0;
-    if (face.equals(atlas_, first)) return 1;
-    return face.thin() ? fill_by_texcoords(face, reference_face, first)
-                       : fill_in_space(face, first);
+    const bool whole = face.equals(atlas_, first);
+    if (!face.thin()) return whole ? 1 : fill_in_space(face, reference_face, first);
+    // So coarse positions may make it equal to a piece of it, or of another face.
+    const std::size_t tiles = fill_by_texcoords(face, reference_face, first);
+    return tiles == 0 && whole ? 1 : tiles;
   }
 
-  std::size_t fill_in_space(const ReferenceFace& face, std::size_t first) const {
+  std::size_t fill_in_space(const ReferenceFace& face, std::size_t reference_face,
+                            std::size_t first) const {
     Vec3 area;
-    for (std::size_t f = first; f < atlas_.face_count() && face.contains(atlas_, f); ++f) {
+    std::size_t f = first, tiles = 0;
+    for (; f < atlas_.face_count() && face.contains(atlas_, f) && tiles == 0; ++f) {
       area = area + vector_area(atlas_, f, face.origin());
-      if (face.filled_by(area)) return f + 1 - first;
+      if (face.filled_by(area)) tiles = f + 1 - first;
     }
-    return 0;
+    if (tiles == 0 || f == atlas_.face_count() || !face.contains(atlas_, f)) return tiles;
+    // Of a face that crosses itself, pieces can undo each other's areas.
+    std::optional<ReferenceFace> next;
+    if (reference_face + 1 < reference_.face_count()) {
+      next.emplace(reference_, reference_face + 1, store_);
+    }
+    bool undone = false;
+    for (; f < atlas_.face_count() && face.contains(atlas_, f); ++f) {
+      if (next && next->contains(atlas_, f)) break;
+      const Vec3 own = vector_area(atlas_, f, face.origin());
+      area = area + own;
+      undone = undone || !face.counts_as_flat(own);
+      if (undone && face.filled_by(area)) tiles = f + 1 - first;
+    }
+    return tiles;
   }
 
   /// For a face without area in space: until its area in the texture is used up.
   std::size_t fill_by_texcoords(const ReferenceFace& face, std::size_t reference_face,
                                 std::size_t first) const {
     if (!face.contains(atlas_, first)) return 0;
-    const double whole = area_ratio_ * std::abs(texcoord_area(reference_, reference_face));
-    if (whole * texels_ < 1e-3 || !has_texcoords(reference_, reference_face)) return 1;
-    double used = 0;
+    const double whole = share_of(reference_face);
+    if (whole == 0) return 1;
+    double used = 0, off = whole;
+    std::size_t tiles = 0;
     for (std::size_t f = first; f < atlas_.face_count() && face.contains(atlas_, f); ++f) {
-      used += std::abs(texcoord_area(atlas_, f));
-      if (used > 0.99 * whole) return used < 1.01 * whole ? f + 1 - first : 0;
+      used += texcoord_area(atlas_, f);
+      const double now_off = std::abs(std::abs(used) - whole);
+      if (tiles > 0 && now_off >= off) break;
+      off = now_off;
+      if (off < 0.01 * whole) tiles = f + 1 - first;
     }
-    return 0;
+    return tiles;
+  }
+
+  /// The area in the atlas that a face should have, as a share of it; 0 if that is none to speak
+  /// of.
+  [[nodiscard]] double share_of(std::size_t reference_face) const {
+    if (!has_texcoords(reference_, reference_face)) return 0;
+    const double share = area_ratio_ * std::abs(texcoord_area(reference_, reference_face));
+    return share * texels_ < 1e-3 ? 0 : share;
   }
 
   /// Pieces too thin to add to the area may come when the face is full already. One that lies on
@@ -95,7 +134,10 @@ class Tiling {
                       std::size_t tiles) const {
     if (first + tiles >= atlas_.face_count() || !face.contains(atlas_, first + tiles)) return 0;
     std::optional<ReferenceFace> next;
-    if (reference_face + 1 < reference_.face_count()) next.emplace(reference_, reference_face + 1);
+    if (reference_face + 1 < reference_.face_count()) {
+      next.emplace(reference_, reference_face + 1, store_);
+    }
+    const double share = face.thin() ? share_of(reference_face) : 0;
     Vec3 area;
     for (std::size_t tile = first; tile < first + tiles; ++tile) {
       area = area + vector_area(atlas_, tile, face.origin());
@@ -105,6 +147,7 @@ class Tiling {
       const Vec3 own = vector_area(atlas_, f, face.origin());
       area = area + own;
       if (!face.counts_as_flat(own) || !(face.thin() || face.still_filled_by(area))) break;
+      if (share > 0 && std::abs(texcoord_area(atlas_, f)) > kSliver * share) break;
       if (!next || !next->contains(atlas_, f)) {
         sure_end = f + 1;
       } else if (next->equals(atlas_, f) || f - sure_end >= kMostUnsure || !is_cut_off(f, first)) {
@@ -160,20 +203,24 @@ class Tiling {
 
   const Mesh& atlas_;
   const Mesh& reference_;
+  PositionStore store_;
   double texels_, area_ratio_ = 0;
 };
 
-Result<FaceMatch> match_in_order(const Mesh& atlas, const Mesh& reference, Vec2 atlas_size) {
+Result<FaceMatch> match_in_order(const Mesh& atlas, const Mesh& reference, PositionStore store,
+                                 Vec2 atlas_size, Areas areas) {
   FaceMatch match;
   match.source.assign(atlas.face_count(), kNone);
   match.corners.resize(atlas.corner_count());
-  const Tiling tiling(atlas, reference, atlas_size);
+  const Tiling tiling(atlas, reference, store, atlas_size, areas);
+  const bool uncut = atlas.face_count() == reference.face_count();
   std::size_t next = 0;
   for (std::uint32_t f = 0; f < reference.face_count(); ++f) {
-    const ReferenceFace face(reference, f);
+    const ReferenceFace face(reference, f, store);
     const std::size_t tiles = tiling.count(f, next);
     if (tiles == 0) match.missing.push_back(f);
-    const bool whole = tiles == 1 && face.equals(atlas, next);
+    const bool whole =
+        tiles == 1 && face.equals(atlas, next) && (uncut || store.exact || !face.thin());
     for (std::size_t end = next + tiles; next < end; ++next) {
       match.source[next] = f;
       for (std::uint32_t c = atlas.face_begin[next]; c < atlas.face_begin[next + 1]; ++c) {
@@ -192,11 +239,12 @@ Result<FaceMatch> match_in_order(const Mesh& atlas, const Mesh& reference, Vec2 
 }
 
 /// With both meshes' faces object by object.
-Result<FaceMatch> match_by_object(const Mesh& atlas, const Mesh& reference, Vec2 atlas_size) {
+Result<FaceMatch> match_by_object(const Mesh& atlas, const Mesh& reference, PositionStore store,
+                                  Vec2 atlas_size, Areas areas) {
   const std::vector<std::uint32_t> atlas_order = order_by_object(atlas);
   const std::vector<std::uint32_t> reference_order = order_by_object(reference);
   auto sorted = match_in_order(reordered(atlas, atlas_order), reordered(reference, reference_order),
-                               atlas_size);
+                               store, atlas_size, areas);
   if (!sorted) return sorted.error();
   FaceMatch match;
   match.source.resize(atlas.face_count());
@@ -216,10 +264,19 @@ Result<FaceMatch> match_by_object(const Mesh& atlas, const Mesh& reference, Vec2
 }  // namespace
 
 Result<FaceMatch> match_faces(const Mesh& atlas, const Mesh& reference, Vec2 atlas_size) {
-  auto match = match_in_order(atlas, reference, atlas_size);
-  if (match && match->missing.empty()) return match;
-  auto by_object = match_by_object(atlas, reference, atlas_size);
-  return by_object && by_object->missing.empty() ? by_object : match;
+  const PositionStore store = positions_of(atlas, reference);
+  const auto complete = [](const Result<FaceMatch>& match) {
+    return match && match->missing.empty();
+  };
+  auto match = match_in_order(atlas, reference, store, atlas_size, Areas::without_sign);
+  for (const Areas areas : {Areas::without_sign, Areas::with_sign}) {
+    if (complete(match)) break;
+    auto in_order = match_in_order(atlas, reference, store, atlas_size, areas);
+    if (complete(in_order)) return in_order;
+    auto by_object = match_by_object(atlas, reference, store, atlas_size, areas);
+    if (complete(by_object)) return by_object;
+  }
+  return match;
 }
 
 }  // namespace wrapatlas::validate

@@ -1,5 +1,11 @@
 #include "validate/polygon.h"
 
+#include <array>
+#include <cstdint>
+
+#include "validate/crossing.h"
+#include "validate/slabs.h"
+
 namespace wrapatlas::validate {
 namespace {
 
@@ -22,17 +28,26 @@ class EarClipper {
     }
   }
 
-  [[nodiscard]] bool convex() const { return reflex_.empty(); }
+  /// Sides may also go back the way they came, or around twice: then the fan turns over.
+  [[nodiscard]] bool convex() const {
+    if (!reflex_.empty()) return false;
+    for (std::uint32_t i = 1; i + 1 < left_; ++i) {
+      if (turn(0, i, i + 1) < 0) return false;
+    }
+    return true;
+  }
 
-  void clip(std::vector<std::array<std::uint32_t, 3>>& triangles) {
+  /// False if no ear is left, or what is left is turned over.
+  bool clip(std::vector<Triangle>& triangles) {
     std::uint32_t at = 0, failures = 0;
-    while (left_ > 3 && failures < left_) {
+    while (left_ > 3) {
+      if (failures == left_) return false;
       if (!is_ear(at)) {
         at = next_[at];
         ++failures;
         continue;
       }
-      triangles.push_back({previous_[at], at, next_[at]});
+      triangles.push_back({points_[previous_[at]], points_[at], points_[next_[at]]});
       next_[previous_[at]] = next_[at];
       previous_[next_[at]] = previous_[at];
       --left_;
@@ -40,9 +55,9 @@ class EarClipper {
       at = next_[at];
       std::erase_if(reflex_, [&](std::uint32_t i) { return turn(previous_[i], i, next_[i]) >= 0; });
     }
-    for (std::uint32_t i = next_[at]; next_[i] != at; i = next_[i]) {
-      triangles.push_back({at, i, next_[i]});
-    }
+    const std::uint32_t b = next_[at], c = next_[b];
+    triangles.push_back({points_[at], points_[b], points_[c]});
+    return turn(at, b, c) >= 0;
   }
 
  private:
@@ -68,25 +83,36 @@ class EarClipper {
   double sign_ = 1;
 };
 
-void add_fan(std::uint32_t size, std::vector<std::array<std::uint32_t, 3>>& triangles) {
-  for (std::uint32_t i = 1; i + 1 < size; ++i) triangles.push_back({0, i, i + 1});
+void add_fan(std::span<const Vec2> polygon, std::vector<Triangle>& triangles) {
+  for (std::size_t i = 1; i + 1 < polygon.size(); ++i) {
+    triangles.push_back({polygon[0], polygon[i], polygon[i + 1]});
+  }
 }
 
 }  // namespace
 
-void cut_into_triangles(std::span<const Vec2> polygon,
-                        std::vector<std::array<std::uint32_t, 3>>& triangles) {
-  const auto size = static_cast<std::uint32_t>(polygon.size());
-  if (size == 3) {
-    add_fan(size, triangles);
-    return;
+bool cover_polygon(std::span<const Vec2> polygon, double rounding,
+                   std::vector<Triangle>& triangles) {
+  if (polygon.size() == 3) {
+    add_fan(polygon, triangles);
+    return false;
   }
   EarClipper clipper(polygon);
-  if (clipper.convex()) {
-    add_fan(size, triangles);
-  } else {
-    clipper.clip(triangles);
+  const bool convex = clipper.convex();
+  const bool surely_simple = convex && polygon.size() == 4;
+  if (!surely_simple && crosses_itself(polygon, rounding)) {
+    add_fan(hull_of(polygon), triangles);
+    return true;
   }
+  if (convex) {
+    add_fan(polygon, triangles);
+    return false;
+  }
+  const std::size_t before = triangles.size();
+  if (clipper.clip(triangles)) return false;
+  triangles.resize(before);
+  cover_by_slabs(polygon, triangles);
+  return false;
 }
 
 }  // namespace wrapatlas::validate

@@ -1,19 +1,20 @@
-// The judge's own triangulation of polygons.
+// What a polygon covers: the judge's own triangles.
 #pragma once
 
-#include <array>
-#include <cstdint>
 #include <span>
 #include <vector>
 
-#include "wrapatlas/geometry.h"
+#include "validate/triangle_pair.h"
 
 namespace wrapatlas::validate {
 
-/// Appends triangles of corner numbers that cover the polygon: ear clipping; convex ones and what
-/// crosses itself get a fan, which covers at least what the outline winds around. O(k) for a
-/// convex polygon of k corners, O(k * reflex corners) for most others, O(k^3) at worst.
-void cut_into_triangles(std::span<const Vec2> polygon,
-                        std::vector<std::array<std::uint32_t, 3>>& triangles);
+/// Appends triangles that cover the polygon, in the same place however it is turned or rounded:
+/// ears, or where rounding leaves none, slabs of what the outline winds around, and the outline.
+/// If sides cross, and would do so even with all corners moved by `rounding`, programs differ in
+/// what they fill: then it is the convex hull, in which all their triangles lie, and the answer is
+/// true. O(k) for a convex polygon of k corners, O(k * reflex corners + pairs of sides side by
+/// side) for most others, O(k^3) at worst.
+bool cover_polygon(std::span<const Vec2> polygon, double rounding,
+                   std::vector<Triangle>& triangles);
 
 }  // namespace wrapatlas::validate

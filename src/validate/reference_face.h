@@ -19,9 +19,16 @@ inline Vec2 texcoord_of(const Mesh& mesh, std::uint32_t corner) {
   return index == kNone ? Vec2{} : mesh.texcoords[index];
 }
 
+/// How exactly an atlas keeps the places of the reference in space.
+struct PositionStore {
+  double relative = 0;  ///< a coordinate may be off by this much of its size
+  bool exact = false;   ///< corners of the reference have the very same coordinates
+};
+PositionStore positions_of(const Mesh& atlas, const Mesh& reference);
+
 class ReferenceFace {
  public:
-  ReferenceFace(const Mesh& mesh, std::size_t face);
+  ReferenceFace(const Mesh& mesh, std::size_t face, PositionStore store);
 
   /// Its area drowns in the rounding of its positions.
   [[nodiscard]] bool thin() const { return thin_; }
@@ -45,17 +52,24 @@ class ReferenceFace {
  private:
   [[nodiscard]] Vec3 at(std::uint32_t i) const { return position_of(mesh_, begin_ + i); }
   [[nodiscard]] Vec2 uv(std::uint32_t i) const { return texcoord_of(mesh_, begin_ + i); }
-  [[nodiscard]] bool elsewhere_too(const Vec3& p, Vec2 expected) const;
+  [[nodiscard]] bool is_corner(const Vec3& p, std::uint32_t i) const;
+  [[nodiscard]] bool elsewhere_too(const Vec3& p, const FaceMatch::Corner& found) const;
+  [[nodiscard]] bool elsewhere_too(const Vec3& p, const FaceMatch::Corner& found, std::uint32_t i,
+                                   std::uint32_t j) const;
   [[nodiscard]] FaceMatch::Corner on_outline(const Vec3& p, double& distance) const;
   [[nodiscard]] double steepest() const;
+  [[nodiscard]] double doubt_beside(std::uint32_t corner) const;
   [[nodiscard]] FaceMatch::Corner inside(const Vec3& p) const;
+  [[nodiscard]] bool on_some_triangle(const Vec3& p) const;
   [[nodiscard]] bool contains(const Vec3& p) const;
 
   const Mesh& mesh_;
+  PositionStore store_;
   std::uint32_t begin_, size_;
   double rounding_ = 0, area_rounding_ = 0, bulge_ = 0;
   Vec3 area_, normal_;
-  bool thin_ = false;
+  bool thin_ = false, flat_convex_ = false;
+  Vec3 low_, high_;
 };
 
 }  // namespace wrapatlas::validate

@@ -100,6 +100,8 @@ class ChartFitter {
         std::max_element(pieces.begin(), pieces.end(),
                          [](const Piece& a, const Piece& b) { return a.weight < b.weight; });
     std::iter_swap(pieces.begin(), largest);
+    // Where even that one has no two corners that are known, no piece tells where another belongs.
+    if (!(pieces[0].weight > 0)) pieces = pieces.first(1);
     Fit direct, mirrored;
     for (const bool flip : {false, true}) {
       Fit& found = flip ? mirrored : direct;
@@ -167,6 +169,9 @@ class ChartFitter {
     result.middle = direct.from;
     result.placed_middle = direct.to;
     result.factor = direct.factor;
+    result.untold = !(direct.spread_from > 0) &&
+                    std::any_of(matches_.begin(), matches_.end(),
+                                [](const Match& m) { return std::isinf(m.doubt); });
     const Fit* chosen = &direct;
     double off = of_direct.originals;
     if (of_direct.worst > in_.tolerance) {

@@ -14,6 +14,7 @@ struct ChartFit {
   enum class Verdict { similar, mirrored, distorted } verdict = Verdict::similar;
   double residual = 0;  ///< texels, the worst corner beyond what rounding allows it
   std::uint32_t worst_face = kNone;
+  bool untold = false;         ///< places in space do not tell its corners apart: not compared
   double scale = 0;            ///< texels per reference UV unit; 0 where size is unknown
   double scale_doubt = 0;      ///< relative, from rounding and what the fit leaves over
   double weight = 0;           ///< how much of the reference this chart is

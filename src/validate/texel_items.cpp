@@ -1,50 +1,46 @@
 #include "validate/texel_items.h"
 
+#include "validate/close_pairs.h"
 #include "validate/polygon.h"
+#include "validate/stored.h"
 
 namespace wrapatlas::validate {
 namespace {
 
-constexpr double kFloatHalfUnit = 1.0 / (1 << 24);
 constexpr double kTextHalfUnit = 5e-9;
 constexpr double kLargestRoundedUv = 4;
 
 /// By how much UVs stored with limited precision may be off, relative to their size.
 double stored_precision(const Mesh& mesh) {
+  Stored stored;
   for (const Vec2 uv : mesh.texcoords) {
-    for (const double x : {uv.x, uv.y}) {
-      if (static_cast<double>(static_cast<float>(x)) != x) return kTextHalfUnit;
-    }
+    if (!stored.as_floats(uv.x) || !stored.as_floats(uv.y)) return kTextHalfUnit;
   }
-  return kFloatHalfUnit;
+  return stored.float_error();
 }
 
 }  // namespace
 
-std::vector<Item> items_of(const Mesh& mesh, const std::vector<std::uint32_t>& face_chart,
-                           Vec2 size) {
-  std::vector<Item> items;
-  items.reserve(mesh.face_count());
+TexelItems items_of(const Mesh& mesh, const std::vector<std::uint32_t>& face_chart, Vec2 size,
+                    const std::vector<double>& rounding) {
+  TexelItems found;
+  found.items.reserve(mesh.face_count());
   std::vector<Vec2> polygon;
-  std::vector<std::array<std::uint32_t, 3>> triangles;
+  std::vector<Triangle> triangles;
   for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
-    if (face_chart[f] == kNone) continue;
+    const std::uint32_t chart = face_chart[f];
+    if (chart == kNone) continue;
     polygon.clear();
     triangles.clear();
     for (std::uint32_t c = mesh.face_begin[f]; c < mesh.face_begin[f + 1]; ++c) {
       const Vec2 uv = mesh.texcoords[mesh.corner_texcoord[c]];
       polygon.push_back({uv.x * size.x, uv.y * size.y});
     }
-    cut_into_triangles(polygon, triangles);
-    for (const auto& t : triangles) {
-      items.push_back({{polygon[t[0]], polygon[t[1]], polygon[t[2]]},
-                       face_chart[f],
-                       face_chart[f],
-                       face_chart[f],
-                       f});
-    }
+    const double clear = rounding[chart] + kSlack;
+    if (cover_polygon(polygon, clear, triangles)) found.crossing_faces.push_back(f);
+    for (const Triangle& t : triangles) found.items.push_back({t, chart, chart, chart, f});
   }
-  return items;
+  return found;
 }
 
 std::vector<double> rounding_of(const Mesh& mesh, const std::vector<std::uint32_t>& face_chart,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "validate/divide.h"
@@ -10,15 +11,19 @@
 
 namespace wrapatlas::validate {
 
-/// Triangles of all faces that belong to a chart, UVs multiplied by `size`; stack and group are
-/// the chart's number.
-std::vector<Item> items_of(const Mesh& mesh, const std::vector<std::uint32_t>& face_chart,
-                           Vec2 size);
+struct TexelItems {
+  std::vector<Item> items;                    ///< stack and group are the chart's number
+  std::vector<std::uint32_t> crossing_faces;  ///< they count as their convex hulls
+};
 
-/// Per chart: the distance in units of `size` by which storing may have moved a corner. Where all
-/// UVs of the mesh are floats that is half a float's last bit, else half a unit of the ninth
-/// decimal digit; UVs beyond 4 (counted from the face's tile, if `face_tile` is not empty) get no
-/// more than those at 4.
+/// Triangles of all faces that belong to a chart, UVs multiplied by `size`. `rounding`: per chart,
+/// see below.
+TexelItems items_of(const Mesh& mesh, const std::vector<std::uint32_t>& face_chart, Vec2 size,
+                    const std::vector<double>& rounding);
+
+/// Per chart: the distance in units of `size` by which storing may have moved a corner: `Stored`
+/// says how exactly the UVs are kept. UVs beyond 4 (counted from the face's tile, if `face_tile` is
+/// not empty) get no more than those at 4.
 std::vector<double> rounding_of(const Mesh& mesh, const std::vector<std::uint32_t>& face_chart,
                                 std::size_t charts, Vec2 size,
                                 std::span<const Tile> face_tile = {});

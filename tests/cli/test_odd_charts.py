@@ -61,9 +61,9 @@ class Repairs(support.CommandTest):
         self.assertEqual(self.pack_and_check(text, stacked=True)["charts"], 2)
 
     def test_a_chart_that_overlaps_itself_is_reported(self):
-        ring = [(0, 0), (4, 0), (4, 2), (1, 2), (1, -1), (2, -1), (2, 1), (3, 1), (3, 1.5), (0, 1)]
-        self.assertIn("a.obj: note: 1 chart overlaps itself in the input\n", self.notes(obj([ring])))
-        self.pack_and_check(obj([ring, square(9)]))
+        fold = obj([square(), square(9)]) + "f 1/1 3/3 2/2\n"
+        self.assertIn("a.obj: note: 1 chart overlaps itself in the input\n", self.notes(fold))
+        self.pack_and_check(fold)
 
     def test_a_search_for_stacked_charts_that_ends_early_says_so(self):
         """Slanted strips side by side: all boxes overlap, no charts do."""
@@ -79,6 +79,41 @@ class Repairs(support.CommandTest):
         self.assertIn("a.obj: note: not all charts that overlap others were", result.stderr)
         self.assertFalse(json.loads(self.path("b.json").read_text())["all_stacks_found"])
         self.assertTrue(self.pack_report("few.obj", "b.obj")["all_stacks_found"])
+
+    def test_faces_that_cross_themselves_keep_their_hull(self):
+        """However a program triangulates them, nothing else lies there."""
+        star = [(0, 3), (2, -3), (-3, 1), (3, 1), (-2, -3)]
+        zigzag = [(0.3, 0.4), (0.2, 0.2), (0.1, 0.3), (0.3, 0.2), (0, 0)]
+        spike = [(6.3, 0.2), (6.6, 0.3), (6.6, 0.6), (6.6, 0.3), (6.6, 0.4)]
+        self.assertIn("a.obj: note: face 1 crosses itself in UV: its convex hull is kept free for "
+                      "it\n", self.notes(obj([square(9), star])))
+        self.assertIn("2 faces cross themselves in UV (face 0 is the first)",
+                      self.notes(obj([star, zigzag])))
+        self.pack_and_check(obj([star, square(9)]))
+        self.pack_and_check(obj([zigzag, [(1, 0), (1.3, 0), (1, 0.3)]]))
+        self.pack_and_check(obj([spike, square(0.5), zigzag]))
+        result = self.succeed("check", "b.obj", "--resolution", "256", "--wrap", "uv")
+        self.assertIn("face 2 crosses itself in the texture", result.stderr)
+
+    def test_triangles_of_a_gltf_stay_within_the_polygon(self):
+        """Convex in space, bent in the texture: the triangles that look good would leave it."""
+        bend = [(0, 0), (3, 0), (3, 1), (1, 1), (1, 3), (0, 3)]
+        places = [(2, 0), (1, 2), (-1, 2), (-2, 0), (-1, -2), (1, -2)]
+        lines = [f"v {x} {y} 0\nvt {u} {v}" for (x, y), (u, v) in zip(places, bend)]
+        lines.append("f " + " ".join(f"{k}/{k}" for k in (1, 2, 3, 4, 5, 6)))
+        self.write("a.obj", "\n".join(lines) + "\n")
+        efficiency = self.pack_report("a.obj", "b.glb")["efficiency"]
+        judged = self.check("b.glb", "a.obj", "--wrap", "uv")
+        self.assertAlmostEqual(judged["efficiency"], efficiency, places=4)
+
+    def test_many_small_charts(self):
+        """Text of floats is no more exact than floats, and small charts show it in their scales."""
+        charts = [[(i % 60, i // 60), (i % 60 + 0.3 + i % 7 / 10, i // 60),
+                   (i % 60, i // 60 + 0.2 + i % 5 / 10)] for i in range(3000)]
+        self.write("a.obj", obj(charts))
+        size = ("--resolution", 4096, "--padding", 16)
+        self.pack("a.obj", "b.obj", "--method", "lprm02", *size)
+        self.assertTrue(self.check("b.obj", "a.obj", resolution=4096, padding=16)["ok"])
 
     def test_duplicate_faces(self):
         twice = GOOD + "\n".join(obj_lines(GOOD, "f")) + "\n"

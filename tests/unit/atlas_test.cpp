@@ -287,6 +287,18 @@ TEST(ExportContinuous, DoesNotShiftAxesThatDoNotWrap) {
   EXPECT_EQ(export_continuous(s.mesh, s.charts, s.packing).texcoords[0].x, -35.0 / 16);
 }
 
+TEST(RoundTexcoords, EveryOneOfAnyNumber) {
+  for (std::size_t count = 0; count < 9; ++count) {
+    AtlasMesh atlas;
+    atlas.texcoords.assign(count, {1.0 / 3, 2.0 / 3});
+    round_texcoords_to_float(atlas);
+    for (const Vec2 uv : atlas.texcoords) {
+      EXPECT_EQ(uv.x, 11184811.0 / (1 << 25));
+      EXPECT_EQ(uv.y, 11184811.0 / (1 << 24));
+    }
+  }
+}
+
 TEST(ExportCut, NothingToCut) {
   const Square s(3, 8, {4, 20});
   const AtlasMesh cut = export_cut(s.mesh, s.charts, s.packing);

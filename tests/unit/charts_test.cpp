@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <random>
+#include <tuple>
 
 #include "charts/stacked.h"
 #include "uv_mesh.h"
@@ -303,6 +304,38 @@ TEST(Stacked, AgreesWithAllPairs) {
       }
     }
   }
+}
+
+TEST(BuildCharts, FacesThatCrossThemselvesTakeUpTheirHull) {
+  const std::vector<Vec2> bow_tie{{0, 0}, {2, 2}, {2, 0}, {0, 2}};
+  const std::vector<Vec2> star{{0, 3}, {2, -3}, {-3, 1}, {3, 1}, {-2, -3}};
+  const std::vector<Vec2> eight{{0, 0}, {2, 0}, {1, 1}, {0, 2}, {2, 2}, {1, 1}};  // at a corner
+  for (const auto& [polygon, hull, place] :
+       {std::tuple(bow_tie, 4.0, Vec2{1, 1.9}), std::tuple(star, 26.0, Vec2{0, -2.9}),
+        std::tuple(eight, 4.0, Vec2{0.1, 1})}) {
+    test::MeshBuilder b;
+    b.flat_face({{10, 0}, {12, 0}, {12, 3}, {11, 1}});
+    b.flat_face(polygon);
+    const auto set = build_charts(b.mesh);
+    ASSERT_TRUE(set);
+    EXPECT_EQ(set->crossing_faces, 1U);
+    EXPECT_EQ(set->first_crossing_face, 1U);
+    EXPECT_DOUBLE_EQ(set->charts[1].area, hull);
+    EXPECT_NE(test::winding_at(set->charts[1], place), 0);
+  }
+}
+
+TEST(BuildCharts, SidesThatTouchDoNotCross) {
+  test::MeshBuilder b;
+  b.flat_face({{0, 0}, {4, 0}, {4, 2}, {2, 0}, {0, 2}});  // a corner on a side
+  b.flat_face({{5, 0}, {9, 0}, {9, 4}, {5, 4}, {5, 0}, {6, 1}, {6, 3}, {8, 3}, {8, 1}, {6, 1}});
+  b.flat_face({{0, 5}, {1, 5}, {2, 5}, {2, 6}, {2, 7}, {1, 6}});  // corners on straight sides
+  const auto set = build_charts(b.mesh);
+  ASSERT_TRUE(set);
+  EXPECT_EQ(set->crossing_faces, 0U);
+  EXPECT_DOUBLE_EQ(set->charts[0].area, 4);
+  EXPECT_DOUBLE_EQ(set->charts[1].area, 12);  // a hole, by way of a slit
+  EXPECT_DOUBLE_EQ(set->charts[2].area, 2);
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "pack/scale_search.h"
 #include "support/shapes.h"
 #include "support/soup_check.h"
+#include "wrapatlas/validate.h"
 
 namespace wrapatlas {
 namespace {
@@ -260,6 +261,43 @@ TEST(ParallelFor, PassesOnWhatAJobThrows) {
                               }),
                  std::bad_alloc);
     EXPECT_LT(runs, 1000);
+  }
+}
+
+/// What is promised holds in the floats that are written, whatever the size of the texture.
+TEST(Padding, HoldsToTheLastBitOfTheLargestTexture) {
+  for (const int side : {1024, 16384, 65536}) {
+    const std::vector<Chart> charts = test::mixed_charts(31, 24);
+    PackOptions options = options_for(Method::modulo, Wrap::uv);
+    options.width = options.height = side;
+    options.padding = side / 256.0;
+    const auto packing = pack(charts, options);
+    ASSERT_TRUE(packing) << packing.error().message();
+    Mesh mesh;
+    for (std::size_t i = 0; i < charts.size(); ++i) {
+      const Similarity place = packing->transform(i);
+      for (const auto& triangle : charts[i].triangles) {
+        for (const std::uint32_t p : triangle) {
+          const Vec2 texel = place.apply(charts[i].points[p]);
+          const volatile float u = static_cast<float>(texel.x / side);
+          const volatile float v = static_cast<float>(texel.y / side);
+          mesh.corner_position.push_back(static_cast<std::uint32_t>(mesh.positions.size()));
+          mesh.corner_texcoord.push_back(static_cast<std::uint32_t>(mesh.texcoords.size()));
+          mesh.positions.push_back({charts[i].points[p].x, charts[i].points[p].y, double(i)});
+          mesh.texcoords.push_back({u, v});
+        }
+        mesh.face_begin.push_back(static_cast<std::uint32_t>(mesh.corner_position.size()));
+      }
+    }
+    CheckOptions check;
+    check.width = check.height = side;
+    check.wrap = Wrap::uv;
+    check.padding = options.padding;
+    const auto report = check_atlas(mesh, nullptr, check);
+    ASSERT_TRUE(report) << report.error().message();
+    EXPECT_TRUE(report->ok());
+    EXPECT_GE(report->smallest_gap, options.padding);
+    EXPECT_LT(report->smallest_gap, report->gap_reach);
   }
 }
 

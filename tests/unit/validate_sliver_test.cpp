@@ -8,11 +8,15 @@
 namespace wrapatlas {
 namespace {
 
-// So far from the origin a place is known to 0.0048 units, which is 0.048 texels here.
-constexpr double kFar = 20000;
+// So far from the origin floats tell a place to 0.0048 units, which is 0.048 texels here.
+constexpr double kFar = 80000;
 constexpr double kThinner = 0.04, kThicker = 0.06;  // texels
 
-Vec3 in_space(double x, double y) { return {kFar + x / 10, y / 10, 0}; }
+Vec3 in_space(double x, double y) {
+  const volatile float stored_x = static_cast<float>(kFar + x / 10);
+  const volatile float stored_y = static_cast<float>(y / 10);
+  return {stored_x, stored_y, 0};
+}
 
 /// A strip of a face, from y = low to high of the plane in space, at (x, y) in the texture.
 void strip(Builder& b, double low, double high, Vec2 at) {

@@ -1,5 +1,7 @@
 #include "validate/texel_items.h"
 
+#include <charconv>
+
 #include "validate/polygon.h"
 
 namespace wrapatlas::validate {
@@ -9,14 +11,26 @@ constexpr double kFloatHalfUnit = 1.0 / (1 << 24);
 constexpr double kTextHalfUnit = 5e-9;
 constexpr double kLargestRoundedUv = 4;
 
+/// Is the number what one reads where someone wrote a float with no more digits than it takes?
+bool is_short_text_of_float(double x) {
+  char text[32];
+  const auto end = std::to_chars(text, text + sizeof text, static_cast<float>(x)).ptr;
+  double read = 0;
+  std::from_chars(text, end, read);
+  return read == x;
+}
+
 /// By how much UVs stored with limited precision may be off, relative to their size.
 double stored_precision(const Mesh& mesh) {
+  bool floats = true;
   for (const Vec2 uv : mesh.texcoords) {
     for (const double x : {uv.x, uv.y}) {
-      if (static_cast<double>(static_cast<float>(x)) != x) return kTextHalfUnit;
+      if (static_cast<double>(static_cast<float>(x)) == x) continue;
+      if (!is_short_text_of_float(x)) return kTextHalfUnit;
+      floats = false;
     }
   }
-  return kFloatHalfUnit;
+  return floats ? kFloatHalfUnit : 2 * kFloatHalfUnit;  // rounded to a float, and that to text
 }
 
 }  // namespace

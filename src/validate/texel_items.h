@@ -16,7 +16,8 @@ std::vector<Item> items_of(const Mesh& mesh, const std::vector<std::uint32_t>& f
                            Vec2 size);
 
 /// Per chart: the distance in units of `size` by which storing may have moved a corner. Where all
-/// UVs of the mesh are floats that is half a float's last bit, else half a unit of the ninth
+/// UVs of the mesh are floats that is half a float's last bit; where they are the shortest text of
+/// floats, a whole one; else half a unit of the ninth
 /// decimal digit; UVs beyond 4 (counted from the face's tile, if `face_tile` is not empty) get no
 /// more than those at 4.
 std::vector<double> rounding_of(const Mesh& mesh, const std::vector<std::uint32_t>& face_chart,

@@ -244,6 +244,19 @@ TEST(Pages, AFillingIsFirstFit) {
   EXPECT_FALSE(fill_pages(task, 100, order, 0, [] { return true; }));
 }
 
+/// Some of these are first fit with a page hardly filled, which is then emptied.
+TEST(Pages, EmptyingAPageLeavesASoundPacking) {
+  const auto charts = small_charts(9, 60);
+  int before = 1;
+  for (double density = 80; density < 160; density *= 1.01) {
+    const PackOptions options = paged(0, density);
+    const Packing packing = packed(charts, options);
+    expect_sound(charts, packing, options);
+    EXPECT_LE(packing.pages, before + 1);
+    before = packing.pages;
+  }
+}
+
 TEST(Pages, RoundingIsThatOfFloats) {
   for (const int pages : {1, 2, 10, 11, 60, 70, 71, 160, 999, 1000}) {
     const int last_row = (pages - 1) / 10, last_column = pages > 1 ? 9 : 0;
@@ -324,6 +337,17 @@ TEST_P(PagesOnTiles, ChartsBeginOnTheTileOfTheirPage) {
   }
 }
 INSTANTIATE_TEST_SUITE_P(VDirection, PagesOnTiles, testing::Bool());
+
+TEST(Pages, TexelDensityIsTheMeanOfTheSurface) {
+  Mesh mesh = mesh_of({rectangle(2, 2), rectangle(3, 4)});
+  EXPECT_DOUBLE_EQ(uv_density(mesh), 1);
+  for (Vec3& p : mesh.positions) p = {6 * p.x, 0, 6 * p.y};
+  EXPECT_DOUBLE_EQ(uv_density(mesh), 1.0 / 6);
+  for (std::size_t i = 4; i < 8; ++i) mesh.texcoords[i] = {0, 0};
+  EXPECT_DOUBLE_EQ(uv_density(mesh), std::sqrt(4.0 / (36 * 16)));
+  for (Vec3& p : mesh.positions) p = {};
+  EXPECT_EQ(uv_density(mesh), 0);
+}
 
 /// A corner that a float would round up to the next tile, and one a hair below its own.
 TEST(Pages, ChartsOnTheEdgeOfATileStayOnTheirPage) {

@@ -35,7 +35,7 @@ class Hints {
       : atlas_(atlas), reference_(reference), options_(options), report_(report), given_(given) {}
 
   std::vector<std::string> find() {
-    if (!hint_on_wrap() && !hint_on_shape()) hint_on_resolution();
+    if (!hint_on_wrap() && !hint_on_pages() && !hint_on_shape()) hint_on_resolution();
     return std::move(hints_);
   }
 
@@ -81,6 +81,23 @@ class Hints {
       return true;
     }
     return false;
+  }
+
+  /// Charts beyond [0,1] may be on other pages.
+  bool hint_on_pages() {
+    if (options_.pages > 1 || axes_left(atlas_) == Wrap::none) return false;
+    CheckOptions options = options_;
+    options.pages = kMostPages;
+    options.max_findings = 0;
+    const auto report = check_atlas(atlas_, reference_, options);
+    if (!report || !report->ok() || report->pages < 2) return false;
+    options.pages = static_cast<int>(report->pages);
+    if (violations_with(options) > 0) options.pages = kMostPages;  // some in between are empty
+    hints_.push_back(fmt::format(
+        "if the atlas has pages beside each other (UDIM tiles), give --pages {}: then every "
+        "promise holds",
+        options.pages));
+    return true;
   }
 
   /// Lengths in the reference against those in the atlas: l^2 = (W du)^2 + (H dv)^2, whatever the

@@ -14,7 +14,7 @@ struct GivenPromise {
 };
 
 /// One line each, with the option that would help. Checks again with it where that tells: at most
-/// four times, and only if there are violations.
+/// six times, and only if there are violations.
 std::vector<std::string> check_hints(const Mesh& atlas, const Mesh* reference,
                                      const CheckOptions& options, const CheckReport& report,
                                      GivenPromise given);

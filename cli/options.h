@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <iterator>
 #include <limits>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -74,13 +75,22 @@ double parse_number(const std::string& option, const std::string& text, Range ra
 std::string number_text(double value);
 std::string range_text(Range range);
 template <typename T>
+struct NumberIn {
+  using type = T;
+};
+template <typename T>
+struct NumberIn<std::optional<T>> {
+  using type = T;
+};
+template <typename T>
 CLI::Option* add_number(CLI::App& app, const std::string& option, T& value, Range range,
                         const std::string& help) {
-  constexpr bool whole = std::is_integral_v<T>;
+  using Number = typename NumberIn<T>::type;
+  constexpr bool whole = std::is_integral_v<Number>;
   CLI::Option* added = app.add_option_function<std::string>(
       option,
       [&value, option, range](const std::string& text) {
-        value = static_cast<T>(parse_number(option, text, range, whole));
+        value = static_cast<Number>(parse_number(option, text, range, whole));
       },
       help);
   added->type_name(range_text(range));

@@ -87,10 +87,23 @@ def of_method(method, sample):
     return draw
 
 
+def pages(command, root):
+    options = ("--method", "guided", "--time", "0", "--resolution", "512", "--density", "250")
+    svg, report = packed(command, root, "mosaic.ply", *options, "--image-size", "512")
+    width = 1560
+    height = width * int(re.search(r'height="(\d+)"', svg)[1]) / int(re.search(r'width="(\d+)"', svg)[1])
+    shares = " · ".join(f"{100 * share:.0f} %" for share in report["page_efficiency"])
+    return sheet(1600, height + 76, [
+        words(20, 40, f"wrapatlas pack samples/mosaic.ply -o out.ply {' '.join(options)}   {shares}", 20),
+        panel(svg, "pages", 20, 56, width, numbers=False).replace(
+            f'height="{width}"', f'height="{height}"', 1)])
+
+
 # Name of the picture: what draws it, and its width in pixels.
 PICTURES = {
     "demo": (demo, 1500),
     "four-methods": (four_methods, 1600),
+    "pages": (pages, 1200),
     "modulo": (of_method("modulo", "machine.obj"), 600),
     "lprm02": (of_method("lprm02", "machine.obj"), 600),
     "swg03": (of_method("swg03", "machine.obj"), 600),

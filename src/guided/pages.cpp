@@ -41,7 +41,7 @@ class DensitySearch {
     std::uint64_t blur = 1;
     do {
       bool promising = false;
-      for (int count = 2; count <= std::min(best_.pages(), kMostEmptied) && !done(); ++count) {
+      for (int count = 2; count <= most_filled_anew() && !done(); ++count) {
         if (!may_empty_one_of(count)) continue;
         promising = true;
         if (empty_one_of(count, blur)) count = 1;
@@ -52,9 +52,13 @@ class DensitySearch {
   }
 
  private:
-  static constexpr int kMostEmptied = 5;  ///< pages that are filled anew to save one of them
   static constexpr std::size_t kAtOnce = 2;
 
+  /// Pages that are filled anew to save one of them: few, unless there is time.
+  [[nodiscard]] int most_filled_anew() const {
+    constexpr int kCheap = 5;
+    return record_.timed() ? best_.pages() : std::min(best_.pages(), kCheap);
+  }
   [[nodiscard]] bool done() {
     return record_.poll() || (record_.timed() && Effort::Clock::now() >= record_.at(1));
   }

@@ -59,7 +59,8 @@ PageGrid page_grid(const Packing& packing, const PictureOptions& options) {
     grid.height = grid.rows * (grid.page_height + grid.gap) + grid.gap;
   };
   lay_out();
-  if (packing.pages > 1 && std::max(grid.width, grid.height) > kLongest) {
+  while (packing.pages > 1 && std::max(grid.width, grid.height) > kLongest &&
+         grid.options.size > kMinSize) {
     const double shrink = double{1} * kLongest / std::max(grid.width, grid.height);
     grid.options.size = std::max(kMinSize, static_cast<int>(grid.options.size * shrink) - 1);
     lay_out();

@@ -418,5 +418,19 @@ TEST(ExportCut, SameBytesTwice) {
   EXPECT_EQ(one.corner_texcoord, two.corner_texcoord);
 }
 
+TEST(Rounding, EveryTexcoordIsAFloatAfterwards) {
+  for (int count = 1; count < 20; ++count) {
+    AtlasMesh atlas;
+    for (int i = 0; i < count; ++i) atlas.texcoords.push_back({i + 0.1, i + 0.3});
+    round_texcoords_to_float(atlas);
+    for (int i = 0; i < count; ++i) {
+      // Through memory: what the compiler knows of a rounding it may leave out.
+      const volatile float u = static_cast<float>(i + 0.1), v = static_cast<float>(i + 0.3);
+      EXPECT_EQ(atlas.texcoords[static_cast<std::size_t>(i)].x, double{u}) << count;
+      EXPECT_EQ(atlas.texcoords[static_cast<std::size_t>(i)].y, double{v}) << count;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace wrapatlas

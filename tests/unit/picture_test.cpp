@@ -426,5 +426,34 @@ TEST_F(PictureFile, ErrorsLeaveNothing) {
   EXPECT_TRUE(fs::is_empty(folder_));
 }
 
+TEST(Picture, PagesLieAsInUvSpace) {
+  const std::vector<Chart> charts(12, rectangle(4, 4));
+  Packing packing = packing_at(4, 4, Wrap::none, std::vector<Vec2>(12));
+  packing.pages = 12;
+  for (int i = 0; i < 12; ++i) packing.placements[static_cast<std::size_t>(i)].page = i;
+  const PictureOptions options = plain(32);
+  const Image image = draw_atlas(charts, packing, options);
+  constexpr int kGap = 4, kStep = 32 + kGap;
+  ASSERT_EQ(image.width, 10 * kStep + kGap);
+  ASSERT_EQ(image.height, 2 * kStep + kGap);
+  for (int page = 0; page < 20; ++page) {
+    const int x = kGap + page % 10 * kStep + 16, y = kGap + (1 - page / 10) * kStep + 16;
+    const Rgb expected = page < 12 ? chart_colors(static_cast<std::size_t>(page)).fill : kGround;
+    EXPECT_EQ(at(image, x, y), expected) << page;
+  }
+  const std::string svg = draw_atlas_svg(charts, packing, options);
+  EXPECT_NE(svg.find("x=\"4\" y=\"40\""), std::string::npos);
+  EXPECT_NE(svg.find("id=\"tile-11\""), std::string::npos);
+}
+
+TEST(Picture, VeryManyPagesAreDrawnSmaller) {
+  Packing packing = packing_at(4, 4, Wrap::none, {{0, 0}});
+  packing.pages = 1000;
+  const std::vector<Chart> charts{rectangle(4, 4)};
+  const Image image = draw_atlas(charts, packing, plain(8192));
+  EXPECT_LE(image.height, 16384);
+  EXPECT_GT(image.height, 15000);
+}
+
 }  // namespace
 }  // namespace wrapatlas

@@ -192,7 +192,7 @@ Command make_pack_command(CLI::App& parser) {
       "  wrapatlas pack model.glb -o packed.glb --resolution 2048 --image atlas.png\n"
       "  wrapatlas pack model.obj -o packed.obj --wrap none --padding 4\n"
       "  wrapatlas pack model.obj -o packed.obj --aspect search --json -\n"
-      "  wrapatlas pack level.obj -o packed.obj --method guided --density 256 --udim");
+      "  wrapatlas pack level.obj -o packed.obj --density 256 --udim");
   return {&app, [arguments, &app] { return run(app, *arguments); }};
 }
 

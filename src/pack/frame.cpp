@@ -45,10 +45,10 @@ AxisGrid free_axis(int length, bool wrap, double inset, double cell) {
 }
 
 /// As padding_slack(), where UVs are larger numbers: two charts may each be moved to the beginning
-/// of their tile, and then be rounded (atlas/chart_uvs.cpp).
+/// of their tile (atlas/chart_uvs.cpp), then be rounded to floats, and those to text.
 double pages_slack(int width, int height, int pages) {
   if (pages == 1) return 0;
-  constexpr double kPair = 2, kMoved = 2, kRounded = 1;
+  constexpr double kPair = 2, kMoved = 2, kRounded = 2;
   return kPair * (kMoved + kRounded) * page_rounding(pages > 0 ? pages : kMostPages) *
          std::hypot(width, height);
 }

@@ -15,9 +15,10 @@ std::uint32_t next_corner(const Mesh& mesh, std::size_t face, std::uint32_t corn
 
 void cross_axis(double a, double b, int axis, std::vector<Crossing>& crossings) {
   const double low = std::min(a, b), high = std::max(a, b);
-  for (double line = std::floor(low) + 1; line < high; ++line) {
+  // The UVs are those of an atlas, so that they are small.
+  for (int line = static_cast<int>(std::floor(low)) + 1; line < high; ++line) {
     const double t = (line - a) / (b - a);
-    if (0 < t && t < 1) crossings.push_back({t, axis, line});
+    if (0 < t && t < 1) crossings.push_back({t, axis, double(line)});
   }
 }
 

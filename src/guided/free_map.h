@@ -39,7 +39,7 @@ class FreeMap {
   }
   bool fill_row(const Occupancy& occupancy, const Probes& probes, const FreeRange& range, int y,
                 std::uint64_t* to) const;
-  void rank(const Occupancy& occupancy, const FreeRange& range, int row, int rows_known);
+  void rank(const Occupancy& occupancy, const FreeRange& range, int index, int rows_known);
 
   int first_word_ = 0, words_ = 0, stride_ = 0;
   int first_row_ = -1;

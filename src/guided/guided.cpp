@@ -6,11 +6,14 @@
 #include <cmath>
 
 #include "charts/hull.h"
+#include "guided/assemble.h"
 #include "guided/best_fit_search.h"
 #include "guided/lines.h"
 #include "guided/pages.h"
 #include "guided/record.h"
+#include "guided/refine.h"
 #include "pack/aspects.h"
+#include "pack/parallel.h"
 
 namespace wrapatlas {
 namespace {
@@ -35,6 +38,26 @@ std::vector<ChartShape> make_shapes(std::span<const Chart> charts) {
         {make_raster_shape(chart), -smallest_box_direction(convex_hull(chart.points)), chart.area});
   }
   return shapes;
+}
+
+/// Charts may be the pieces of one sheet: if all of them fit together they are packed like that.
+void search_assembly(std::span<const ChartShape> shapes, const PackOptions& options,
+                     std::span<const Frame> frames, Record& record) {
+  constexpr double kMatchShare = 0.05, kWholeShare = 0.3, kRefineShare = 0.9;  // of the time
+  if (!record.timed()) return;
+  const double seconds = kMatchShare * options.time * thread_count(options.threads);
+  const auto assembly = assemble(shapes, frames, options, seconds, record.effort(kWholeShare));
+  if (!assembly) return;
+  const Frame& frame = frames[assembly->frame];
+  Effort effort = record.effort(kRefineShare);
+  Random random(options.seed);
+  auto fine = refine(shapes, frame, options, assembly->layout, {}, effort, random);
+  if (!fine) return;
+  double area = 0;
+  for (const ChartShape& shape : shapes) area += shape.area;
+  record.offer(make_packing(frame, options.wrap, fine->layout.scale, area,
+                            std::move(fine->placements), fine->covered_cells),
+               1);
 }
 
 }  // namespace
@@ -71,6 +94,7 @@ Result<Packing> pack_guided(std::span<const Chart> charts, const PackOptions& op
     if (record.timed() && options.time < kShort) {
       search_best_fit(shapes, options, *frames, record, false);
     }
+    search_assembly(shapes, options, *frames, record);
     Lines lines(shapes, options, *frames, record);
     if (record.best()) lines.begin_with(*record.best(), false);
     lines.run();

@@ -66,6 +66,17 @@ class Jigsaw(CommandTest):
                       jigsaw.jigsaw(8, 5, roughness=0.2)):
             self.assertNotEqual(obj_lines(other, "vt"), obj_lines(first, "vt"))
 
+    def test_guided_puts_a_jigsaw_together(self):
+        for wrap in (True, False):
+            with self.subTest(wrap=wrap):
+                self.write("jigsaw.obj", jigsaw.jigsaw(9, 4, wrap))
+                axes = "uv" if wrap else "none"
+                report = self.report("pack", "jigsaw.obj", "-o", "packed.obj", "--method",
+                                     "guided", "--time", 4, "--resolution", 512, "--wrap", axes,
+                                     "--padding", 0, "--quiet")
+                self.assertGreater(report["efficiency"], 0.92)
+                self.check("packed.obj", "jigsaw.obj", "--wrap", axes, resolution=512, padding=0)
+
     def test_a_jigsaw_packs(self):
         for wrap in (True, False):
             with self.subTest(wrap=wrap):

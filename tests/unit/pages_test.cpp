@@ -249,8 +249,8 @@ TEST(Pages, AFillingIsFirstFit) {
 TEST(Pages, EmptyingAPageLeavesASoundPacking) {
   const auto charts = small_charts(9, 60);
   int before = 1;
-  for (double density = 80; density < 160; density *= 1.01) {
-    const PackOptions options = paged(0, density);
+  for (int step = 0; step < 70; ++step) {
+    const PackOptions options = paged(0, 80 * std::pow(1.01, step));
     const Packing packing = packed(charts, options);
     expect_sound(charts, packing, options);
     EXPECT_LE(packing.pages, before + 1);

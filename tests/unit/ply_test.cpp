@@ -57,8 +57,8 @@ std::string encoded(const std::string& text, PlyEncoding encoding) {
   for (const PlyElement& element : header->elements) {
     for (std::uint64_t i = 0; i < element.count; ++i) {
       for (const PlyProperty& property : element.properties) {
-        double length = property.is_list ? transfer(property.count_type) : 1;
-        for (; length > 0; --length) transfer(property.type);
+        const double length = property.is_list ? transfer(property.count_type) : 1;
+        for (int k = 0; k < length; ++k) transfer(property.type);
       }
     }
   }

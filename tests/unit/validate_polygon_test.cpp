@@ -59,8 +59,10 @@ std::vector<Vec2> on_grid(std::mt19937& random, int corners, std::uint32_t side)
 /// Places off the grid, and so off most sides.
 std::vector<Vec2> probes(std::uint32_t side) {
   std::vector<Vec2> points;
-  for (double x = -0.37; x < side; x += 0.29) {
-    for (double y = -0.41; y < side; y += 0.31) points.push_back({x, y});
+  for (int i = 0; - 0.37 + 0.29 * i < side; ++i) {
+    for (int j = 0; - 0.41 + 0.31 * j < side; ++j) {
+      points.push_back({-0.37 + 0.29 * i, -0.41 + 0.31 * j});
+    }
   }
   return points;
 }

@@ -1,0 +1,72 @@
+#include "guided/groups.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace wrapatlas {
+namespace {
+
+constexpr double kMostShared = 0.1;  ///< of a chart's cells: so much comes of rounding
+constexpr int kPlane = 1 << 13;      ///< cells along the side of a plane
+
+}  // namespace
+
+Groups::Groups(std::span<const ChartShape> shapes, double cell)
+    : shapes_(shapes), cell_(cell), poses_(shapes.size()) {
+  for (std::uint32_t chart = 0; chart < shapes.size(); ++chart) {
+    group_.push_back(chart);
+    members_.push_back({chart});
+    covered_.push_back(covered(chart, poses_[chart]));
+  }
+}
+
+std::uint32_t Groups::largest() const {
+  const auto found =
+      std::max_element(members_.begin(), members_.end(),
+                       [](const auto& a, const auto& b) { return a.size() < b.size(); });
+  return static_cast<std::uint32_t>(found - members_.begin());
+}
+
+bool Groups::join(std::uint32_t a, std::uint32_t b, const Pose& motion) {
+  std::vector<Covered> moved;
+  for (const std::uint32_t chart : members_[b]) {
+    moved.push_back(covered(chart, motion.after(poses_[chart])));
+    for (const std::uint32_t other : members_[a]) {
+      const auto cells = static_cast<double>(std::min(moved.back().cells, covered_[other].cells));
+      const std::int64_t shared = Cover::shared(moved.back().cover, covered_[other].cover);
+      if (static_cast<double>(shared) > kMostShared * cells) return false;
+    }
+  }
+  for (std::size_t k = 0; k < moved.size(); ++k) {
+    const std::uint32_t chart = members_[b][k];
+    poses_[chart] = motion.after(poses_[chart]);
+    covered_[chart] = std::move(moved[k]);
+    group_[chart] = a;
+    members_[a].push_back(chart);
+  }
+  members_[b].clear();
+  return true;
+}
+
+Groups::Covered Groups::covered(std::uint32_t chart, const Pose& pose) const {
+  RasterScale scale;
+  scale.cells_per_unit = {1 / cell_, 1 / cell_};
+  scale.coverage = Coverage::center;
+  const RasterShape& shape = shapes_[chart].raster;
+  const ChartRaster raster = rasterize(shape, scale, pose.angle);
+  if (raster.width == 0) return {};
+  const Vec2 centre = (1 / cell_) * pose.turned(shape.centre) + raster.offset;
+  const Piece piece = make_piece(raster, centre);
+  const auto at = [](double shift, double in_piece, int size) {
+    return std::clamp(kPlane / 2 + static_cast<int>(std::lround(shift - in_piece)), 0,
+                      kPlane - size);
+  };
+  Covered result;
+  result.cells = piece.cells;
+  result.cover.set({kPlane, kPlane, false, false}, piece,
+                   at(pose.shift.x / cell_, centre.x, piece.width),
+                   at(pose.shift.y / cell_, centre.y, piece.height));
+  return result;
+}
+
+}  // namespace wrapatlas

@@ -59,7 +59,13 @@ GltfEdit::GltfEdit(const GltfFile& file)
     : json(file.json),
       file_(file),
       old_accessors_(array_member(json, "accessors").size()),
-      old_views_(array_member(json, "bufferViews").size()) {}
+      old_views_(array_member(json, "bufferViews").size()) {
+  // Objects keep their members in vectors. With room for all that may be added to the outermost
+  // one, references into it stay good while accessors are added to a file that has none.
+  constexpr std::size_t kMostAdded = 16;
+  auto& members = json.get_ref<Json::object_t&>();
+  members.reserve(members.size() + kMostAdded);
+}
 
 std::uint64_t GltfEdit::add_accessor(Json accessor, std::string bytes, std::size_t stride,
                                      GltfTarget target) {

@@ -157,6 +157,21 @@ TEST(GltfWrite, SplitVerticesKeepAllAttributesAndTargets) {
   expect_same_attributes(opened(builder), reopen(output_path("rich.glb")));
 }
 
+/// Accessors without views are all zeros; the first views are then those that saving makes.
+TEST(GltfWrite, AFileWithoutViewsGetsSome) {
+  GltfBuilder builder;
+  builder.json["accessors"] = Json::parse(R"([
+    {"componentType": 5126, "count": 8, "type": "VEC3", "min": [0, 0, 0], "max": [0, 0, 0]},
+    {"componentType": 5126, "count": 8, "type": "VEC2"}])");
+  builder.primitive(0, {{"POSITION", 0}, {"TEXCOORD_0", 1}}, -1, 5);
+  const Model model = load(builder);
+  const AtlasMesh atlas = atlas_with(model.mesh, alternating);
+  const auto after = save_and_reload(model, atlas, "no_views.glb");
+  ASSERT_TRUE(after) << after.error().message();
+  EXPECT_EQ(after->mesh.face_count(), 6U);
+  expect_uvs(after->mesh, atlas);
+}
+
 TEST(GltfWrite, NoSplitKeepsEveryOtherAccessor) {
   const GltfBuilder builder = rich_cube();
   const Model model = load(builder);

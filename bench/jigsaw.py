@@ -11,9 +11,7 @@ turned at random and laid apart. Same options, same bytes.
 
 import argparse
 import math
-import pathlib
 import random
-import sys
 
 import outlines
 
@@ -189,7 +187,7 @@ def arguments():
     parser.add_argument("--no-wrap", action="store_true", help="cut the square, not the torus")
     parser.add_argument("--roughness", type=float, default=0.3, help="how far borders bend, in "
                         "parts of the room they have: 0 (straight) to 0.9; default 0.3")
-    parser.add_argument("-o", "--output", type=pathlib.Path, required=True, help="OBJ to write")
+    outlines.add_output(parser)
     options = parser.parse_args()
     if options.pieces < 2 or not 0 <= options.roughness <= 0.9:
         parser.error("--pieces has to be 2 or more, --roughness between 0 and 0.9")
@@ -199,10 +197,7 @@ def arguments():
 def main():
     options = arguments()
     text = jigsaw(options.pieces, options.seed, not options.no_wrap, options.roughness)
-    try:
-        options.output.write_text(text)
-    except OSError as error:
-        sys.exit(f"jigsaw.py: {error}")
+    outlines.write(options, text)
 
 
 if __name__ == "__main__":

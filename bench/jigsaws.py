@@ -18,16 +18,13 @@ def arguments():
     parser = argparse.ArgumentParser(description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     measure.add_options(parser, padding="0")
+    measure.add_packing_options(parser, time="20")
     parser.add_argument("--pieces", type=measure.numbers, default=[10, 30, 100],
                         help="default 10,30,100")
     parser.add_argument("--seeds", type=measure.numbers, default=[1, 2, 3], help="default 1,2,3")
     parser.add_argument("--wrap", default="uv",
                         help="uv: the torus is cut; none: the square; uv,none: both; default uv")
     parser.add_argument("--roughness", type=float, default=0.3, help="see jigsaw.py; default 0.3")
-    parser.add_argument("--method", default="guided", help="default guided")
-    parser.add_argument("--time", default="20", help="of guided, seconds; default 20")
-    parser.add_argument("--images", type=pathlib.Path, metavar="DIR",
-                        help="write a picture of each packing there")
     options = parser.parse_args()
     options.wraps = options.wrap.split(",")
     if not set(options.wraps) <= {"uv", "none"}:
@@ -39,9 +36,7 @@ def packed(options, pieces, seed, wrap, folder):
     name = f"jigsaw-{pieces}-{seed}-{wrap}"
     source = pathlib.Path(folder) / f"{name}.obj"
     source.write_text(jigsaw.jigsaw(pieces, seed, wrap == "uv", options.roughness))
-    more = ["--time", options.time] if options.method == "guided" else []
-    if options.images:
-        more += ["--image", str(options.images / f"{name}.png")]
+    more = measure.packing_arguments(options, name)
     # The domain is known to hold the pieces: a margin would only take the optimum away.
     return measure.pack(options, source, folder, options.method, wrap, name, more, margin="0")
 
@@ -50,8 +45,6 @@ def main():
     options = arguments()
     measure.print_origin(options, f"{options.method}, time {options.time}, "
                          f"roughness {options.roughness:g}, margin 0")
-    if options.images:
-        options.images.mkdir(parents=True, exist_ok=True)
     rows, means = [], []
     with tempfile.TemporaryDirectory(prefix="wrapatlas_jigsaws") as folder:
         for wrap in options.wraps:

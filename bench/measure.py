@@ -1,5 +1,6 @@
 """What the measuring scripts share: packing and checking a file, saying where that was, tables."""
 
+import csv
 import json
 import os
 import pathlib
@@ -10,6 +11,9 @@ import sys
 
 REPOSITORY = pathlib.Path(__file__).resolve().parents[1]
 CHARTS = REPOSITORY.parent / "shared" / "data" / "charts"  # beside the repository, not in it
+
+
+TIE = 1e-9  # efficiencies closer than this are equal
 
 
 class Failure(Exception):
@@ -27,6 +31,23 @@ def add_options(parser, resolution="1024", padding="2", threads="0"):
     parser.add_argument("--wrapatlas", default=os.environ.get(
         "WRAPATLAS", str(REPOSITORY / "build/release/cli/wrapatlas")),
         help="the command to run; default: $WRAPATLAS, else the release build")
+
+
+def add_packing_options(parser, time):
+    """The options of scripts that pack with one method."""
+    parser.add_argument("--method", default="guided", help="default guided")
+    parser.add_argument("--time", default=time, help=f"of guided, seconds; default {time}")
+    parser.add_argument("--images", type=pathlib.Path, metavar="DIR",
+                        help="write a picture of each packing there")
+
+
+def packing_arguments(options, image):
+    """What add_packing_options() gives `wrapatlas pack`, with the name of the picture."""
+    more = ["--time", options.time] if options.method == "guided" else []
+    if options.images:
+        options.images.mkdir(parents=True, exist_ok=True)
+        more += ["--image", str(options.images / f"{image}.png")]
+    return more
 
 
 def machine():
@@ -94,6 +115,26 @@ def table(titles, rows):
              "|" + "|".join("---" if title.startswith("<") else "---:" for title in titles) + "|"]
     lines += ["| " + " | ".join(str(cell) for cell in row) + " |" for row in rows]
     return "\n".join(lines)
+
+
+def by_group(rows):
+    """Yields ("name: N files", its rows) for each group of rows, in their order."""
+    for name in dict.fromkeys(row.group for row in rows):
+        group = [row for row in rows if row.group == name]
+        yield title(name, group), group
+
+
+def title(name, rows):
+    files = len({row.file for row in rows})
+    return f"{name}: {files} {'file' if files == 1 else 'files'}"
+
+
+def write_csv(path, rows):
+    """Named tuples, all of a kind."""
+    with open(path, "w", newline="") as file:
+        writer = csv.writer(file)
+        writer.writerow(rows[0]._fields)
+        writer.writerows(rows)
 
 
 def numbers(text):

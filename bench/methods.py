@@ -7,7 +7,6 @@ comparison with exit status 1. Progress goes to stderr.
 
 import argparse
 import collections
-import csv
 import pathlib
 import shlex
 import statistics
@@ -15,8 +14,6 @@ import sys
 import tempfile
 
 import measure
-
-TIE = 1e-9  # efficiencies closer than this are equal
 
 Method = collections.namedtuple("Method", "name method wrap")
 METHODS = [
@@ -95,22 +92,22 @@ def by_file(rows):
 
 
 def is_best(row, of_file):
-    return row.efficiency >= max(other.efficiency for other in of_file.values()) - TIE
+    return row.efficiency >= max(other.efficiency for other in of_file.values()) - measure.TIE
 
 
-def print_group(name, rows, methods):
-    files = by_file(rows)
-    print(f"\n### {name}: {len(files)} {'file' if len(files) == 1 else 'files'}\n")
-    print("| method | mean | min | max | best on | pack, median s | total, median s |")
-    print("|---|---:|---:|---:|---:|---:|---:|")
+def print_group(title, rows, methods):
+    files, lines = by_file(rows), []
     for method in methods:
         mine = [row for row in rows if row.method == method.name]
         efficiency = [row.efficiency for row in mine]
         best = sum(is_best(row, files[row.file]) for row in mine)
-        print(f"| {method.name} | {statistics.mean(efficiency):.3f} | {min(efficiency):.3f} "
-              f"| {max(efficiency):.3f} | {100 * best / len(mine):.0f} % "
-              f"| {statistics.median(row.pack for row in mine):.3f} "
-              f"| {statistics.median(row.total for row in mine):.3f} |")
+        lines.append([method.name, f"{statistics.mean(efficiency):.3f}", f"{min(efficiency):.3f}",
+                      f"{max(efficiency):.3f}", f"{100 * best / len(mine):.0f} %",
+                      f"{statistics.median(row.pack for row in mine):.3f}",
+                      f"{statistics.median(row.total for row in mine):.3f}"])
+    print(f"\n### {title}\n")
+    print(measure.table(["<method", "mean", "min", "max", "best on", "pack, median s",
+                         "total, median s"], lines))
 
 
 def print_defeats(rows, methods):
@@ -120,11 +117,10 @@ def print_defeats(rows, methods):
     print(f"\n### Files on which {ours.name} is not the best: {len(lost)}\n")
     if not lost:
         return
-    print("| file | charts | " + " | ".join(method.name for method in methods) + " |")
-    print("|---|---:|" + "---:|" * len(methods))
-    for file, of_file in lost:
-        numbers = [f"{of_file[method.name].efficiency:.4f}" for method in methods]
-        print(f"| {file} | {of_file[ours.name].charts} | " + " | ".join(numbers) + " |")
+    lines = [[file, of_file[ours.name].charts,
+              *(f"{of_file[method.name].efficiency:.4f}" for method in methods)]
+             for file, of_file in lost]
+    print(measure.table(["<file", "charts", *(method.name for method in methods)], lines))
 
 
 def main():
@@ -136,17 +132,14 @@ def main():
     rows = measure_all(options)
     print("\nEfficiency: share of the atlas that charts cover, exact areas. Best on: share of the "
           "files; of equals, each counts.\nEvery packing passed `wrapatlas check`.")
-    groups = list(dict.fromkeys(row.group for row in rows))
-    for group in groups:
-        print_group(group, [row for row in rows if row.group == group], options.methods)
+    groups = list(measure.by_group(rows))
     if len(groups) > 1:
-        print_group("all", rows, options.methods)
+        groups.append((measure.title("all", rows), rows))
+    for title, group in groups:
+        print_group(title, group, options.methods)
     print_defeats(rows, options.methods)
     if options.csv:
-        with open(options.csv, "w", newline="") as file:
-            writer = csv.writer(file)
-            writer.writerow(Row._fields)
-            writer.writerows(rows)
+        measure.write_csv(options.csv, rows)
 
 
 if __name__ == "__main__":

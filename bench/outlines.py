@@ -1,6 +1,8 @@
 """What the generators of charts share: areas, ear clipping, laying apart, writing an OBJ."""
 
 import math
+import pathlib
+import sys
 
 
 def signed_area(polygon):
@@ -87,3 +89,14 @@ def obj(charts, triangles, comment, digits=9):
             lines.append(f"f {a}/{a} {b}/{b} {c}/{c}")
         first += len(points)
     return "\n".join(lines) + "\n"
+
+
+def add_output(parser):
+    parser.add_argument("-o", "--output", type=pathlib.Path, required=True, help="OBJ to write")
+
+
+def write(options, text):
+    try:
+        options.output.write_text(text)
+    except OSError as error:
+        sys.exit(f"{pathlib.Path(sys.argv[0]).name}: {error}")

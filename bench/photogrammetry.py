@@ -11,9 +11,7 @@ at random and laid apart. Same options, same bytes.
 
 import argparse
 import math
-import pathlib
 import random
-import sys
 
 import outlines
 
@@ -93,7 +91,7 @@ def arguments():
     parser.add_argument("--seed", type=int, default=0, help="another number, another atlas")
     parser.add_argument("--most-triangles", type=int, default=MOST_TRIANGLES,
                         help=f"of one chart; default {MOST_TRIANGLES}")
-    parser.add_argument("-o", "--output", type=pathlib.Path, required=True, help="OBJ to write")
+    outlines.add_output(parser)
     options = parser.parse_args()
     if options.charts < 1 or options.most_triangles < 1:
         parser.error("--charts and --most-triangles have to be 1 or more")
@@ -103,10 +101,7 @@ def arguments():
 def main():
     options = arguments()
     text = photogrammetry(options.charts, options.seed, options.most_triangles)
-    try:
-        options.output.write_text(text)
-    except OSError as error:
-        sys.exit(f"photogrammetry.py: {error}")
+    outlines.write(options, text)
 
 
 if __name__ == "__main__":

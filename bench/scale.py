@@ -22,14 +22,11 @@ def arguments():
     parser = argparse.ArgumentParser(description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     measure.add_options(parser, resolution="4096")
+    measure.add_packing_options(parser, time="0")
     parser.add_argument("--charts", type=measure.numbers, default=[100, 1000, 10000, 50000],
                         help="how many, in turn; default 100,1000,10000,50000")
     parser.add_argument("--seed", type=int, default=0, help="of the generator; default 0")
-    parser.add_argument("--method", default="guided", help="default guided")
-    parser.add_argument("--time", default="0", help="of guided, seconds; default 0")
     parser.add_argument("--wrap", default="uv", help="uv, u, v, or none; default uv")
-    parser.add_argument("--images", type=pathlib.Path, metavar="DIR",
-                        help="write a picture of each packing there")
     return parser.parse_args()
 
 
@@ -46,9 +43,7 @@ def packed(options, charts, folder):
     begin = time.monotonic()
     source.write_text(photogrammetry.photogrammetry(charts, options.seed))
     measure.progress(f"{charts} charts, made in {time.monotonic() - begin:.1f} s")
-    more = ["--time", options.time] if options.method == "guided" else []
-    if options.images:
-        more += ["--image", str(options.images / f"{options.method}-{charts}.png")]
+    more = measure.packing_arguments(options, f"{options.method}-{charts}")
     report = measure.pack(options, source, folder, options.method, options.wrap,
                           f"{charts} charts", more)
     if report["charts"] != charts:
@@ -60,8 +55,6 @@ def main():
     options = arguments()
     measure.print_origin(options, f"{options.method}, time {options.time}, wrap {options.wrap}, "
                          f"seed {options.seed}")
-    if options.images:
-        options.images.mkdir(parents=True, exist_ok=True)
     rows, times = [], {"pack": [], "total": []}
     with tempfile.TemporaryDirectory(prefix="wrapatlas_scale") as folder:
         for charts in options.charts:

@@ -11,6 +11,7 @@ import pathlib
 import statistics
 
 import measure
+from union_find import UnionFind
 
 
 def read_charts(path):
@@ -21,23 +22,12 @@ def read_charts(path):
             uvs.append(tuple(map(float, line.split()[1:3])))
         elif line.startswith("f "):
             faces.append([uvs[int(corner.split("/")[1]) - 1] for corner in line.split()[1:]])
-    parent = {uv: uv for uv in uvs}
-
-    def root(uv):
-        while parent[uv] != uv:
-            parent[uv] = parent[parent[uv]]
-            uv = parent[uv]
-        return uv
-
-    area = 0
+    connected, area = UnionFind(uvs), 0
     for face in faces:
         for uv in face[1:]:
-            parent[root(uv)] = root(face[0])
+            connected.join(uv, face[0])
         area += abs(sum(a[0] * b[1] - b[0] * a[1] for a, b in zip(face, face[1:] + face[:1]))) / 2
-    charts = {}
-    for uv in parent:
-        charts.setdefault(root(uv), []).append(uv)
-    return list(charts.values()), area
+    return connected.sets(), area
 
 
 def smallest_square(points, angles=180):

@@ -11,7 +11,6 @@ below the tables. Progress goes to stderr.
 
 import argparse
 import collections
-import csv
 import json
 import pathlib
 import statistics
@@ -28,7 +27,6 @@ except ImportError as error:
     sys.exit(f"with_xatlas.py: {error}; see the README.md beside it for how to install it")
 
 MARGIN = "0"  # xatlas lets charts reach the border of the page
-TIE = 1e-9  # efficiencies closer than this are equal
 PROMISES = ("overlap", "self_overlap", "gap", "bounds", "margin", "missing_face")
 
 Row = collections.namedtuple("Row", "group file charts method efficiency seconds last")
@@ -116,7 +114,7 @@ def wrap_name(wrap):
     return "no wrap" if wrap == "none" else f"wrap {wrap}"
 
 
-def print_group(name, rows):
+def print_group(title, rows):
     of_file = collections.defaultdict(dict)
     for row in rows:
         of_file[row.file][row.method] = row.efficiency
@@ -126,15 +124,15 @@ def print_group(name, rows):
     for method in methods:
         mine = [row for row in rows if row.method == method]
         efficiency = [row.efficiency for row in mine]
-        best = sum(e[method] >= max(e.values()) - TIE for e in of_file.values())
-        beats = sum(e[method] > max(e[x] for x in theirs) + TIE for e in of_file.values())
+        best = sum(e[method] >= max(e.values()) - measure.TIE for e in of_file.values())
+        beats = sum(e[method] > max(e[x] for x in theirs) + measure.TIE for e in of_file.values())
         lines.append([method, f"{statistics.mean(efficiency):.3f}",
                       f"{statistics.median(efficiency):.3f}", f"{min(efficiency):.3f}",
                       best, "" if method in theirs else beats,
                       f"{statistics.median(row.seconds for row in mine):.3f}",
                       f"{statistics.median(row.last for row in mine):.3f}" if method in theirs
                       else ""])
-    print(f"\n### {name}: {len(of_file)} {'file' if len(of_file) == 1 else 'files'}\n")
+    print(f"\n### {title}\n")
     print(measure.table(["<method", "mean", "median", "min", "best on",
                          "denser than all of xatlas'", "median s", "one try, median s"], lines))
 
@@ -163,14 +161,11 @@ def main():
     print("\nEfficiency: share of the atlas that charts cover, exact areas as written. Time: "
           "packing with the search of the\nscale, without files; xatlas packs on one thread. Every "
           "packing of wrapatlas passed `wrapatlas check`.\nxatlas cannot wrap.")
-    for group in dict.fromkeys(row.group for row in rows):
-        print_group(group, [row for row in rows if row.group == group])
+    for title, group in measure.by_group(rows):
+        print_group(title, group)
     print_found(found)
     if options.csv:
-        with open(options.csv, "w", newline="") as file:
-            writer = csv.writer(file)
-            writer.writerow(Row._fields)
-            writer.writerows(rows)
+        measure.write_csv(options.csv, rows)
 
 
 if __name__ == "__main__":

@@ -18,6 +18,7 @@ import time
 
 import numpy
 import xatlas
+from union_find import UnionFind
 
 
 class Obj:
@@ -47,21 +48,13 @@ class Obj:
                 uv - 1 if uv > 0 else len(self.uvs) + uv)
 
     def chart_of_each_face(self):
-        parent = list(range(len(self.faces)))
-
-        def root(face):
-            while parent[face] != face:
-                parent[face] = parent[parent[face]]
-                face = parent[face]
-            return face
-
-        first_at = {}
+        connected, first_at = UnionFind(range(len(self.faces))), {}
         for face, corners in enumerate(self.faces):
             ends = [(self.positions[p], self.uvs[t]) for p, t in corners]
             for a, b in zip(ends, ends[1:] + ends[:1]):
                 key = (self.objects[face], *sorted((a, b)))
-                parent[root(face)] = root(first_at.setdefault(key, face))
-        return [root(face) for face in range(len(self.faces))]
+                connected.join(face, first_at.setdefault(key, face))
+        return [connected.root(face) for face in range(len(self.faces))]
 
     def text(self, uv_of):
         """The OBJ with new UVs: uv_of[face][corner]."""

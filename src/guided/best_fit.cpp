@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "guided/wrapped.h"
+
 namespace wrapatlas {
 namespace {
 
@@ -13,27 +15,10 @@ constexpr std::size_t kLooks = 48;      ///< translations per angle whose contac
 constexpr std::size_t kFineLooks = 12;  ///< the same on the frame's grid
 constexpr std::size_t kSettled = 4;     ///< candidates tried on the frame's grid
 
-int modulo(int value, int size) {
-  const int rest = value % size;
-  return rest < 0 ? rest + size : rest;
-}
-
 int halved(int cells, int times) { return (cells + (1 << times) - 1) >> times; }
 
 Domain domain_of(const Frame& frame, Wrap wrap) {
   return {frame.width, frame.height, wraps_u(wrap), wraps_v(wrap)};
-}
-
-Piece bare_piece(const ChartRaster& raster) {
-  Piece piece;
-  piece.width = raster.width;
-  piece.height = raster.height;
-  piece.cells = raster.cells;
-  piece.angle = raster.angle;
-  piece.offset = raster.offset;
-  piece.runs = runs_of(*raster.unturned);
-  lead_with_telling_runs(piece.runs, piece.height);
-  return piece;
 }
 
 /// Where the centre of a shape's box lies in a raster of it.
@@ -46,11 +31,9 @@ Vec2 centre_in(const Piece& piece, const RasterShape& shape, const RasterScale& 
 /// Takes the cells of the board that cells [begin, end) of row y of the frame's grid lie in.
 void take_halved(Occupancy& board, int halvings, const Domain& fine, int y, int begin, int end) {
   y %= fine.height;
-  for (int from = begin % fine.width, left = end - begin; left > 0; from = 0) {
-    const int part = std::min(left, fine.width - from);
-    board.take(y >> halvings, from >> halvings, ((from + part - 1) >> halvings) + 1);
-    left -= part;
-  }
+  for_each_part(begin, end, fine.width, [&](int from, int to) {
+    board.take(y >> halvings, from >> halvings, ((to - 1) >> halvings) + 1);
+  });
 }
 
 }  // namespace
@@ -118,7 +101,7 @@ void BestFitPage::seek(const RasterShape& shape, std::span<const double> angles,
     const double angle = angles[i];
     const ChartRaster raster = rasterize(shape, scale, angle, max_side);
     if (raster.width == 0) continue;
-    const Piece piece = bare_piece(raster);
+    const Piece piece = make_bare_piece(raster);
     if (!admits(domain, piece)) continue;
     FreeRange range;
     range.x_end = domain.width;
@@ -160,7 +143,7 @@ std::optional<BestFitPage::Spot> BestFitPage::settle(const RasterShape& shape,
   const ChartRaster raster =
       rasterize(shape, scale, candidate.angle, 4 * std::max(domain.width, domain.height));
   if (raster.width == 0) return {};
-  const Piece piece = bare_piece(raster);
+  const Piece piece = make_bare_piece(raster);
   if (!admits(domain, piece)) return {};
   const Vec2 centre = centre_in(piece, shape, scale);
   const int x = static_cast<int>(std::lround(candidate.at.x - centre.x));
@@ -244,7 +227,7 @@ std::optional<BestFitPage::Spot> BestFitPage::place_alone(const RasterShape& sha
     const ChartRaster raster =
         rasterize(shape, scale, angle, 4 * std::max(domain.width, domain.height));
     if (raster.width == 0) continue;
-    const Piece piece = bare_piece(raster);
+    const Piece piece = make_bare_piece(raster);
     if (!admits(domain, piece)) continue;
     take(piece, 0, 0);
     return Spot{place_on(frame_, piece.angle, piece.offset, 0, 0), piece.cells};

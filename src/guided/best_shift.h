@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "guided/field.h"
 
@@ -33,9 +34,7 @@ std::uint16_t cost_at(const Field& field, std::span<const PieceRun> runs, int x,
 
 using BestShiftKernel = void (*)(const Field& field, const Piece& piece, const ShiftRange& range,
                                  Shift& best);
-/// The versions, for tests and benchmarks; null where the machine lacks one.
-BestShiftKernel best_shift_scalar();
-BestShiftKernel best_shift_avx2();
-BestShiftKernel best_shift_avx512();
+/// The versions that the machine can run, the widest first, for tests and benchmarks.
+std::vector<BestShiftKernel> best_shift_kernels();
 
 }  // namespace wrapatlas

@@ -2,13 +2,10 @@
 
 #include <bit>
 
+#include "guided/wrapped.h"
+
 namespace wrapatlas {
 namespace {
-
-int modulo(int value, int size) {
-  const int rest = value % size;
-  return rest < 0 ? rest + size : rest;
-}
 
 /// Bits `word` * 64 ... + 63 of a lane moved up by `shift` bits, 0 to 2.
 std::uint64_t moved(const BitLanes& rows, int lane, int word, int shift) {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <bit>
 
+#include "guided/wrapped.h"
+
 namespace wrapatlas {
 
 void Cover::set(const Domain& domain, const Piece& piece, int x, int y) {
@@ -17,13 +19,8 @@ void Cover::set(const Domain& domain, const Piece& piece, int x, int y) {
   for (const PieceRun& run : piece.runs) {
     std::uint64_t* row =
         bits_.data() + static_cast<std::ptrdiff_t>(run.row % domain.height) * words_;
-    int from = (x + run.begin) % domain.width;
-    for (int left = run.end - run.begin; left > 0;) {
-      const int part = std::min(left, domain.width - from);
-      set_span(row, from, from + part);
-      left -= part;
-      from = 0;
-    }
+    for_each_part(x + run.begin, x + run.end, domain.width,
+                  [&](int from, int to) { set_span(row, from, to); });
   }
 }
 

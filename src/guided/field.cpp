@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "guided/wrapped.h"
+
 #if defined(__SSE2__)
 #include <emmintrin.h>
 #endif
@@ -41,25 +43,13 @@ void Field::add_run(std::uint16_t* row, int begin, int end, int weight) const {
     clip(begin - x_.origin, end - x_.origin);
     return;
   }
-  const int w = domain_.width;
-  int from = (begin - x_.origin) % w;
-  if (from < 0) from += w;
-  for (int left = end - begin; left > 0;) {
-    const int part = std::min(left, w - from);
-    clip(from, from + part);
-    left -= part;
-    from = 0;
-  }
+  for_each_part(begin - x_.origin, end - x_.origin, domain_.width, clip);
 }
 
 void Field::add(const Piece& piece, int x, int y, int weight) {
-  const int h = domain_.height;
   for (const PieceRun& run : piece.runs) {
     int row = y + run.row - y_.origin;
-    if (domain_.wraps_y) {
-      row %= h;
-      if (row < 0) row += h;
-    }
+    if (domain_.wraps_y) row = modulo(row, domain_.height);
     if (row < 0 || row >= y_.count) continue;
     add_run(sums_.data() + static_cast<std::ptrdiff_t>(row) * stride_, x + run.begin, x + run.end,
             weight);

@@ -4,10 +4,7 @@
 #include <bit>
 
 #include "guided/inner_squares.h"
-
-#if defined(__x86_64__)
-#include <immintrin.h>
-#endif
+#include "guided/words.h"
 
 namespace wrapatlas {
 namespace {
@@ -29,94 +26,60 @@ inline const std::uint64_t* look(const Occupancy& occupancy, const Probe& probe,
   return y + probe.row < occupancy.domain().height ? at : at - around;
 }
 
-bool scan_scalar(const Occupancy& occupancy, std::span<const Probe> probes, int y, int first_word,
-                 int words, std::uint64_t* free) {
-  const std::ptrdiff_t line = y * occupancy.stride();
-  const std::ptrdiff_t around = occupancy.domain().height * occupancy.stride();
-  std::uint64_t any = 0;
-  for (int i = 0; i < words; ++i) {
-    const int word = first_word + i;
-    std::uint64_t left = in_domain(occupancy.domain().width, word);
-    for (const Probe& probe : probes) {
-      if (left == 0) break;
-      const std::uint64_t* at = look(occupancy, probe, y, line + word, around);
-      const int shift = probe.shift;
-      left &= ~(shift == 0 ? *at : at[0] >> shift | at[1] << (kWordBits - shift));
-    }
-    free[i] = left;
-    any |= left;
+/// Sets the bits that stand for translations in the domain: those of `words` words from `word` on.
+template <typename Words>
+[[gnu::always_inline]] inline void set_in_domain(Words& bits, int width, int word, int words) {
+  if (words >= Words::kCount && width - word * kWordBits >= Words::kCount * kWordBits) {
+    bits.set();
+    return;
   }
-  return any != 0;
+  std::uint64_t valid[Words::kCount];
+  for (int k = 0; k < Words::kCount; ++k) valid[k] = k < words ? in_domain(width, word + k) : 0;
+  bits.load(valid);
 }
 
-#if defined(__x86_64__)
-
-[[gnu::target("avx2")]] inline __m256i load(const std::uint64_t* from) {
-  return _mm256_loadu_si256(reinterpret_cast<const __m256i*>(from));
-}
-
-[[gnu::target("avx2")]] bool scan_avx2(const Occupancy& occupancy, std::span<const Probe> probes,
-                                       int y, int first_word, int words, std::uint64_t* free) {
-  const int width = occupancy.domain().width;
-  const std::ptrdiff_t line = y * occupancy.stride() + first_word;
-  const std::ptrdiff_t around = occupancy.domain().height * occupancy.stride();
-  __m256i any = _mm256_setzero_si256();
-  for (int i = 0; i < words; i += 4) {
-    alignas(32) std::uint64_t valid[4];
-    for (int k = 0; k < 4; ++k) valid[k] = i + k < words ? in_domain(width, first_word + i + k) : 0;
-    __m256i left = load(valid);
-    const Probe* probe = probes.data();
-    const Probe* const end = probe + probes.size();
-    while (probe != end) {
-      const Probe* const stop = probe + std::min<std::ptrdiff_t>(kChunk, end - probe);
-      for (; probe != stop; ++probe) {
-        const std::uint64_t* at = look(occupancy, *probe, y, line + i, around);
-        const int shift = probe->shift;  // shifting by 64 gives 0
-        const __m256i low = _mm256_srl_epi64(load(at), _mm_cvtsi32_si128(shift));
-        const __m256i high = _mm256_sll_epi64(load(at + 1), _mm_cvtsi32_si128(kWordBits - shift));
-        left = _mm256_andnot_si256(_mm256_or_si256(low, high), left);
-      }
-      if (_mm256_testz_si256(left, left) != 0) break;
-    }
-    _mm256_storeu_si256(reinterpret_cast<__m256i*>(free + i), left);
-    any = _mm256_or_si256(any, left);
-  }
-  return _mm256_testz_si256(any, any) == 0;
-}
-
-[[gnu::target("avx512f")]] bool scan_avx512(const Occupancy& occupancy,
-                                            std::span<const Probe> probes, int y, int first_word,
-                                            int words, std::uint64_t* free) {
+template <typename Words>
+[[gnu::always_inline]] inline bool scan(const Occupancy& occupancy, std::span<const Probe> probes,
+                                        int y, int first_word, int words, std::uint64_t* free) {
   const int width = occupancy.domain().width;
   const std::ptrdiff_t line = y * occupancy.stride() + first_word;
   const std::ptrdiff_t around = occupancy.domain().height * occupancy.stride();
   bool any = false;
-  for (int i = 0; i < words; i += 8) {
-    alignas(64) std::uint64_t valid[8];
-    for (int k = 0; k < 8; ++k) valid[k] = i + k < words ? in_domain(width, first_word + i + k) : 0;
-    __m512i left = _mm512_load_si512(valid);
+  for (int i = 0; i < words; i += Words::kCount) {
+    Words left;
+    set_in_domain(left, width, first_word + i, words - i);
     const Probe* probe = probes.data();
     const Probe* const end = probe + probes.size();
     while (probe != end) {
       const Probe* const stop = probe + std::min<std::ptrdiff_t>(kChunk, end - probe);
       for (; probe != stop; ++probe) {
-        const std::uint64_t* at = look(occupancy, *probe, y, line + i, around);
-        const int shift = probe->shift;
-        // The forms with a mask leave nothing undefined, which g++ 12 warns of in the others.
-        const __m512i low =
-            _mm512_maskz_srl_epi64(0xff, _mm512_loadu_si512(at), _mm_cvtsi32_si128(shift));
-        const __m512i high = _mm512_maskz_sll_epi64(0xff, _mm512_loadu_si512(at + 1),
-                                                    _mm_cvtsi32_si128(kWordBits - shift));
-        constexpr int kFirstAndNeitherOther = 0x10;
-        left = _mm512_ternarylogic_epi64(left, low, high, kFirstAndNeitherOther);
+        left.clear(look(occupancy, *probe, y, line + i, around), probe->shift);
       }
-      if (_mm512_test_epi64_mask(left, left) == 0) break;
+      if (!left.any()) break;
     }
-    _mm512_storeu_si512(free + i, left);
-    any = any || _mm512_test_epi64_mask(left, left) != 0;
+    left.store(free + i);
+    any = any || left.any();
   }
   return any;
 }
+
+bool scan_scalar(const Occupancy& occupancy, std::span<const Probe> probes, int y, int first_word,
+                 int words, std::uint64_t* free) {
+  return scan<ScalarWords>(occupancy, probes, y, first_word, words, free);
+}
+
+#if defined(__x86_64__)
+WRAPATLAS_AVX2 bool scan_avx2(const Occupancy& occupancy, std::span<const Probe> probes, int y,
+                              int first_word, int words, std::uint64_t* free) {
+  return scan<Avx2Words>(occupancy, probes, y, first_word, words, free);
+}
+WRAPATLAS_AVX512 bool scan_avx512(const Occupancy& occupancy, std::span<const Probe> probes, int y,
+                                  int first_word, int words, std::uint64_t* free) {
+  return scan<Avx512Words>(occupancy, probes, y, first_word, words, free);
+}
+constexpr Versions<FreeRowKernel> kVersions{scan_scalar, scan_avx2, scan_avx512};
+#else
+constexpr Versions<FreeRowKernel> kVersions{scan_scalar, nullptr, nullptr};
 #endif
 
 }  // namespace
@@ -157,30 +120,11 @@ std::uint64_t open_blocks(const Occupancy& occupancy, const Probes& probes, int 
   return open;
 }
 
-FreeRowKernel free_row_scalar() { return scan_scalar; }
-
-FreeRowKernel free_row_avx2() {
-#if defined(__x86_64__)
-  if (__builtin_cpu_supports("avx2")) return scan_avx2;
-#endif
-  return nullptr;
-}
-
-FreeRowKernel free_row_avx512() {
-#if defined(__x86_64__)
-  if (__builtin_cpu_supports("avx512f")) return scan_avx512;
-#endif
-  return nullptr;
-}
+std::vector<FreeRowKernel> free_row_kernels() { return kVersions.usable(); }
 
 bool free_row(const Occupancy& occupancy, std::span<const Probe> probes, int y, int first_word,
               int words, std::uint64_t* free) {
-  static const FreeRowKernel widest = [] {
-    for (const FreeRowKernel kernel : {free_row_avx512(), free_row_avx2()}) {
-      if (kernel != nullptr) return kernel;
-    }
-    return free_row_scalar();
-  }();
+  static const FreeRowKernel widest = free_row_kernels().front();
   return widest(occupancy, probes, y, first_word, words, free);
 }
 

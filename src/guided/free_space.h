@@ -46,9 +46,7 @@ bool free_row(const Occupancy& occupancy, std::span<const Probe> probes, int y, 
 
 using FreeRowKernel = bool (*)(const Occupancy& occupancy, std::span<const Probe> probes, int y,
                                int first_word, int words, std::uint64_t* free);
-/// The versions, for tests and benchmarks; null where the machine lacks one.
-FreeRowKernel free_row_scalar();
-FreeRowKernel free_row_avx2();
-FreeRowKernel free_row_avx512();
+/// The versions that the machine can run, the widest first, for tests and benchmarks.
+std::vector<FreeRowKernel> free_row_kernels();
 
 }  // namespace wrapatlas

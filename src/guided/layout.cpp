@@ -4,14 +4,15 @@
 #include <cmath>
 #include <numbers>
 
+#include "guided/wrapped.h"
+
 namespace wrapatlas {
 namespace {
 
 int cell_of(double centre, double piece_centre, int size, int length, bool wraps) {
   const int cell = static_cast<int>(std::lround(centre * size - piece_centre));
   if (!wraps) return std::clamp(cell, 0, std::max(0, size - length));
-  const int rest = cell % size;
-  return rest < 0 ? rest + size : rest;
+  return modulo(cell, size);
 }
 
 }  // namespace
@@ -22,10 +23,10 @@ Layout to_layout(const Packing& packing, std::span<const ChartShape> shapes, con
   for (std::size_t i = 0; i < shapes.size(); ++i) {
     const double turns =
         (packing.placements[i].angle - shapes[i].base_angle) / (2 * std::numbers::pi);
-    const int angle = static_cast<int>(std::lround(turns * kAngleSteps)) % kAngleSteps;
+    const int angle = modulo(static_cast<int>(std::lround(turns * kAngleSteps)), kAngleSteps);
     const Vec2 centre = packing.transform(i).apply(shapes[i].raster.centre) - frame.origin;
     layout.spots.push_back(
-        {angle < 0 ? angle + kAngleSteps : angle,
+        {angle,
          {centre.x / (frame.width * frame.cell.x), centre.y / (frame.height * frame.cell.y)}});
   }
   return layout;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "guided/wrapped.h"
+
 namespace wrapatlas {
 namespace {
 
@@ -31,11 +33,7 @@ Occupancy::Occupancy(const Domain& domain)
 void Occupancy::take(int y, int begin, int end) {
   y %= domain_.height;
   std::uint64_t* row = words(0, y);
-  for (int from = begin % domain_.width, left = end - begin; left > 0; from = 0) {
-    const int part = std::min(left, domain_.width - from);
-    set_span(row, from, from + part);
-    left -= part;
-  }
+  for_each_part(begin, end, domain_.width, [&](int from, int to) { set_span(row, from, to); });
   if (changed_.empty() || changed_.back() != y) changed_.push_back(y);
 }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "guided/wrapped.h"
+
 namespace wrapatlas {
 namespace {
 
@@ -19,8 +21,26 @@ std::vector<int> spread_order(int count) {
   return order;
 }
 
-}  // namespace
+/// Adds a run, cut to kLongestRun.
+void add_cut(std::vector<PieceRun>& runs, const PieceRun& run) {
+  for (int begin = run.begin; begin < run.end; begin += kLongestRun) {
+    runs.push_back({run.row, begin, std::min(begin + kLongestRun, run.end)});
+  }
+}
 
+/// With its runs, row by row.
+Piece piece_of(const ChartRaster& raster) {
+  Piece piece;
+  piece.width = raster.width;
+  piece.height = raster.height;
+  piece.cells = raster.cells;
+  piece.angle = raster.angle;
+  piece.offset = raster.offset;
+  if (raster.width > 0) piece.runs = runs_of(*raster.unturned);  // rasterize() turns nothing
+  return piece;
+}
+
+/// Moves some long runs that lie far apart to the front: most often one of them is in the way.
 void lead_with_telling_runs(std::vector<PieceRun>& runs, int height) {
   constexpr std::size_t kLead = 12;
   std::vector<int> distance(runs.size(), std::max(1, height / 3));
@@ -41,6 +61,8 @@ void lead_with_telling_runs(std::vector<PieceRun>& runs, int height) {
     }
   }
 }
+
+}  // namespace
 
 std::vector<PieceRun> runs_of(const BitLanes& rows) {
   std::vector<PieceRun> runs;
@@ -70,27 +92,23 @@ std::vector<PieceRun> core_of(const BitLanes& rows) {
     }
   }
   std::vector<PieceRun> runs;
-  for (const PieceRun& run : runs_of(core)) {
-    for (int begin = run.begin; begin < run.end; begin += kLongestRun) {
-      runs.push_back({run.row, begin, std::min(begin + kLongestRun, run.end)});
-    }
-  }
+  for (const PieceRun& run : runs_of(core)) add_cut(runs, run);
   lead_with_telling_runs(runs, rows.lanes);
   if (runs.size() > kMostRuns) runs.resize(kMostRuns);
   return runs;
 }
 
+Piece make_bare_piece(const ChartRaster& raster) {
+  Piece piece = piece_of(raster);
+  lead_with_telling_runs(piece.runs, piece.height);
+  return piece;
+}
+
 Piece make_piece(const ChartRaster& raster, Vec2 centre) {
-  Piece piece;
-  piece.width = raster.width;
-  piece.height = raster.height;
-  piece.cells = raster.cells;
-  piece.angle = raster.angle;
-  piece.offset = raster.offset;
+  Piece piece = piece_of(raster);
   piece.centre = centre;
   if (raster.width == 0) return piece;
-  const BitLanes& rows = *raster.unturned;  // rasterize() turns nothing
-  piece.runs = runs_of(rows);
+  const BitLanes& rows = *raster.unturned;
   std::vector<std::size_t> row_begin(static_cast<std::size_t>(rows.lanes) + 1, piece.runs.size());
   for (std::size_t i = piece.runs.size(); i-- > 0;) {
     row_begin[static_cast<std::size_t>(piece.runs[i].row)] = i;
@@ -101,10 +119,7 @@ Piece make_piece(const ChartRaster& raster, Vec2 centre) {
   for (const int y : spread_order(rows.lanes)) {
     const auto row = static_cast<std::size_t>(y);
     for (std::size_t i = row_begin[row]; i < row_begin[row + 1]; ++i) {
-      const PieceRun run = piece.runs[i];
-      for (int begin = run.begin; begin < run.end; begin += kLongestRun) {
-        piece.spread.push_back({run.row, begin, std::min(begin + kLongestRun, run.end)});
-      }
+      add_cut(piece.spread, piece.runs[i]);
     }
   }
   lead_with_telling_runs(piece.spread, piece.height);
@@ -136,13 +151,10 @@ bool admits(const Domain& domain, const Piece& piece) {
       static_cast<std::size_t>(covered.lanes) * static_cast<std::size_t>(covered.words), 0);
   for (const PieceRun& run : piece.runs) {
     std::uint64_t* lane = covered.lane(run.row % domain.height);
-    int from = run.begin % domain.width;
-    for (int left = run.end - run.begin; left > 0;) {
-      const int part = std::min(left, domain.width - from);
-      if (!claim_span(lane, from, from + part)) return false;
-      left -= part;
-      from = 0;
-    }
+    bool free = true;
+    for_each_part(run.begin, run.end, domain.width,
+                  [&](int from, int to) { free = free && claim_span(lane, from, to); });
+    if (!free) return false;
   }
   return true;
 }

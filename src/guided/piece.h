@@ -46,15 +46,15 @@ struct Piece {
 /// The runs of rows of cells, row by row.
 std::vector<PieceRun> runs_of(const BitLanes& rows);
 
-/// Moves some long runs that lie far apart to the front: most often one of them is in the way.
-void lead_with_telling_runs(std::vector<PieceRun>& runs, int height);
-
 /// Runs of the core of a piece with these cells, cut to kLongestRun, telling ones first, and no
 /// more than are worth asking.
 std::vector<PieceRun> core_of(const BitLanes& rows);
 
 /// The runs of a raster. `centre` is the chart's, in cells from the raster's cell (0,0).
 Piece make_piece(const ChartRaster& raster, Vec2 centre);
+
+/// Without centre, spread and core; runs that most often are in the way come first.
+Piece make_bare_piece(const ChartRaster& raster);
 
 /// Can the piece lie in the domain at all: inside the sides that do not wrap, and not over itself
 /// across those that do?

@@ -3,17 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "guided/wrapped.h"
+
 namespace wrapatlas {
 namespace {
 
 constexpr float kWeightUnit = 8;     ///< field weight of a cell whose pair has weight 1
 constexpr float kLargestPair = 120;  ///< field weight of the dearest pair
 constexpr float kDecay = 0.95F;
-
-int modulo(int value, int size) {
-  const int rest = value % size;
-  return rest < 0 ? rest + size : rest;
-}
 
 /// Translations along one axis of the whole domain.
 int positions(int size, int piece, bool wraps) { return wraps ? size : size - piece + 1; }

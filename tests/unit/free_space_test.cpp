@@ -150,8 +150,7 @@ TEST(FreeSpace, EveryVersionFindsAllFreeTranslations) {
     const int first = random.below(words), count = 1 + random.below(words - first);
     const int rows = domain.wraps_y ? domain.height : domain.height - piece.height + 1;
     for (int y = 0; y < rows; ++y) {
-      for (const FreeRowKernel kernel : {free_row_scalar(), free_row_avx2(), free_row_avx512()}) {
-        if (kernel == nullptr) continue;
+      for (const FreeRowKernel kernel : free_row_kernels()) {
         std::vector<std::uint64_t> row(static_cast<std::size_t>(count) + 8, ~std::uint64_t{0});
         const bool any = kernel(boards.fast, probes.all, y, first, count, row.data());
         bool expected_any = false;

@@ -152,9 +152,7 @@ TEST(BestShift, EveryVersionFindsTheFirstLeastCost) {
         if (cost < expected.cost) expected = {static_cast<std::uint16_t>(cost), x, y};
       }
     }
-    for (const BestShiftKernel kernel :
-         {best_shift_scalar(), best_shift_avx2(), best_shift_avx512()}) {
-      if (kernel == nullptr) continue;
+    for (const BestShiftKernel kernel : best_shift_kernels()) {
       Shift best = limit;
       kernel(field, moved, range, best);
       EXPECT_EQ(best.cost, expected.cost);

@@ -68,6 +68,7 @@ Json pack_json(const PackArguments& arguments, const ChartSet& charts, const Pac
           {"efficiency", packing.efficiency},
           {"page_efficiency", outcome.page_efficiency},
           {"raster_efficiency", packing.raster_efficiency},
+          {"unpadded_efficiency", unpadded_efficiency(charts.charts, packing)},
           {"packings", packing.packings},
           {"valid", outcome.valid},
           {"interrupted", packing.interrupted},
@@ -102,6 +103,8 @@ void print_pack_summary(const PackArguments& arguments, const ChartSet& charts,
   say("  {}, scale {:.6g} texels per UV unit, raster {:.3f} s, place {:.3f} s\n",
       quantity(static_cast<std::size_t>(packing.packings), "packing"), packing.scale,
       packing.raster_seconds, packing.place_seconds);
+  say("  {:.1f} % in use if the charts grew in place until two touch\n",
+      100 * unpadded_efficiency(charts.charts, packing));
   if (outcome.uv_density > 0) {
     say("  {:.6g} texels per unit of surface, in the mean\n", packing.scale * outcome.uv_density);
   }

@@ -128,4 +128,15 @@ struct Packing {
 /// The same charts and options give the same bits for any number of threads.
 Result<Packing> pack(std::span<const Chart> charts, const PackOptions& options);
 
+/// Efficiency without padding on the same layout: all charts are enlarged by one factor k >= 1,
+/// each about the centre of its placed box and at its angle, until two touch, or one its own image
+/// under the wrap or a side that does not wrap; the value is efficiency * k^2. So what is above
+/// `efficiency` is what padding and grid cost at the least. At least `efficiency`, and equal to it
+/// where charts touch or cross already; at most 1 but for rounding. Exact: the first contact of the
+/// outlines (and of triangles against the grain), on no grid; only a chart that comes to be 8 pages
+/// long ends it early. `charts` as they were packed, in their order. Source: ours, see
+/// src/pack/unpadded.cpp. O(n log n + E log E) for n charts with E outline edges, each compared
+/// with those it comes near; more only for outlines like combs, O(E^2) at the worst.
+double unpadded_efficiency(std::span<const Chart> charts, const Packing& packing);
+
 }  // namespace wrapatlas

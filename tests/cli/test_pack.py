@@ -316,6 +316,29 @@ class Outputs(support.CommandTest):
         self.assertLessEqual(sum(seconds[part] for part in parts), seconds["total"] + 1e-6)
         self.assertGreaterEqual(min(seconds.values()), 0)
 
+    def test_report_of_what_padding_costs(self):
+        for method in ("lprm02", "swg03", "zsgs04", "modulo", "guided"):
+            for wrap in ("none", "u", "uv") if method in ("modulo", "guided") else ("none",):
+                with self.subTest(f"{method} {wrap}"):
+                    options = ["--method", method, "--wrap", wrap, "--padding", "8",
+                               "--resolution", "256"]
+                    options += ["--time", "0"] if method == "guided" else ["--grid", "64"]
+                    self.write("a.obj", obj([square()]))
+                    report = self.report("pack", "a.obj", "-o", "b.obj", "--quiet", *options)
+                    # Until it meets itself, or a border, about its centre.
+                    factors = []
+                    for name, axis in zip("uv", zip(*obj_uvs(self.path("b.obj")))):
+                        low, high = min(axis), max(axis)
+                        room = 1 if name in wrap else min(low + high, 2 - low - high)
+                        factors.append(room / (high - low))
+                    self.assertGreater(min(factors), 1)
+                    self.assertAlmostEqual(report["unpadded_efficiency"],
+                                           report["efficiency"] * min(factors) ** 2, 5)
+                    self.sample("coral.glb")
+                    report = self.report("pack", "coral.glb", "-o", "b.glb", "--quiet", *options)
+                    self.assertLess(report["efficiency"], report["unpadded_efficiency"])
+                    self.assertLess(report["unpadded_efficiency"], 1)
+
     def test_report_of_what_was_asked(self):
         self.write("a.glb", gltf_maker.two_uv_sets().glb())
         keys = ("padding", "margin", "block", "aspect", "stacked_mode", "texcoord", "rotations")
@@ -379,6 +402,7 @@ class Outputs(support.CommandTest):
         self.assertEqual((checked.stdout, checked.stderr), ("", ""))
         verbose = self.succeed("pack", "coral.glb", "-o", "b.glb", *quick("--verbose"))
         self.assertIn("grid 64 x 64", verbose.stderr)
+        self.assertRegex(verbose.stderr, r"[\d.]+ % in use if the charts grew in place until two touch")
 
     def test_help(self):
         for command in ((), ("pack",), ("check",), ("info",)):

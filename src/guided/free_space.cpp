@@ -10,7 +10,6 @@ namespace wrapatlas {
 namespace {
 
 constexpr std::size_t kSquares = 4;  ///< squares within a piece that are asked for first
-constexpr std::size_t kChunk = 4;    ///< probes between two looks at whether anything is still free
 
 /// Bits of the word that lie in the domain.
 std::uint64_t in_domain(int width, int word) {
@@ -51,7 +50,7 @@ template <typename Words>
     const Probe* probe = probes.data();
     const Probe* const end = probe + probes.size();
     while (probe != end) {
-      const Probe* const stop = probe + std::min<std::ptrdiff_t>(kChunk, end - probe);
+      const Probe* const stop = probe + std::min(Words::kClears, end - probe);
       for (; probe != stop; ++probe) {
         left.clear(look(occupancy, *probe, y, line + i, around), probe->shift);
       }

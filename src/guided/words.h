@@ -2,6 +2,7 @@
 // same members. See instruction_sets.h.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 #include "guided/instruction_sets.h"
@@ -10,6 +11,7 @@ namespace wrapatlas {
 
 struct ScalarWords {
   static constexpr int kCount = 1;
+  static constexpr std::ptrdiff_t kClears = 1;  ///< worth doing between two calls of any()
   std::uint64_t bits;
 
   void set() { bits = ~std::uint64_t{0}; }
@@ -26,6 +28,7 @@ struct ScalarWords {
 
 struct Avx2Words {
   static constexpr int kCount = 4;
+  static constexpr std::ptrdiff_t kClears = 4;
   __m256i bits;
 
   WRAPATLAS_AVX2 void set() { bits = _mm256_set1_epi64x(-1); }
@@ -48,6 +51,7 @@ struct Avx2Words {
 
 struct Avx512Words {
   static constexpr int kCount = 8;
+  static constexpr std::ptrdiff_t kClears = 4;
   __m512i bits;
 
   WRAPATLAS_AVX512 void set() { bits = _mm512_set1_epi64(-1); }

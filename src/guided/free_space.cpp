@@ -98,7 +98,8 @@ Probes probes_of(const Piece& piece, const BitLanes& cells, const Occupancy& occ
         {square.level, square.y % domain.height, square.x % domain.width / Occupancy::kBlockBits});
   }
   for (const PieceRun& run : piece.runs) {
-    const int level = std::bit_width(static_cast<unsigned>(run.end - run.begin)) - 1;
+    const int length = run.end - run.begin;
+    const int level = length > 1 ? std::bit_width(static_cast<unsigned>(length)) - 1 : 0;
     add(Occupancy::stretch_table(level), run.begin, run.row);
     const int last = run.end - (1 << level);
     if (last != run.begin) add(Occupancy::stretch_table(level), last, run.row);

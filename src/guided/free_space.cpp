@@ -1,7 +1,6 @@
 #include "guided/free_space.h"
 
 #include <algorithm>
-#include <bit>
 
 #include "guided/inner_squares.h"
 #include "guided/words.h"
@@ -98,11 +97,13 @@ Probes probes_of(const Piece& piece, const BitLanes& cells, const Occupancy& occ
         {square.level, square.y % domain.height, square.x % domain.width / Occupancy::kBlockBits});
   }
   for (const PieceRun& run : piece.runs) {
-    const int length = run.end - run.begin;
-    const int level = length > 1 ? std::bit_width(static_cast<unsigned>(length)) - 1 : 0;
-    add(Occupancy::stretch_table(level), run.begin, run.row);
+    int level = 0;
+    while (level + 1 < occupancy.stretch_levels() && 2 << level <= run.end - run.begin) ++level;
     const int last = run.end - (1 << level);
-    if (last != run.begin) add(Occupancy::stretch_table(level), last, run.row);
+    for (int x = run.begin; x < last; x += 1 << level) {
+      add(Occupancy::stretch_table(level), x, run.row);
+    }
+    add(Occupancy::stretch_table(level), last, run.row);
   }
   return probes;
 }

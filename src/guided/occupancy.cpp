@@ -9,6 +9,9 @@ namespace {
 
 /// A row has a word before its first bit, and vectors of eight words may begin at any of its bits.
 constexpr int kSpareWords = 1 + 9;
+/// Level of the longest stretches: longer runs are several of them. Most charts are 16 to 32 cells
+/// long on the board they are sought on.
+constexpr int kLongestStretch = 6;
 /// Level of the largest squares: beyond, few charts on a board hold one.
 constexpr int kLargestSquare = 4;
 
@@ -16,7 +19,9 @@ constexpr int kLargestSquare = 4;
 
 Occupancy::Occupancy(const Domain& domain)
     : domain_(domain), stride_(words_for(2 * domain.width) + kSpareWords) {
-  while ((1 << stretch_levels_) <= domain.width) ++stretch_levels_;
+  while (stretch_levels_ <= kLongestStretch && (1 << stretch_levels_) <= domain.width) {
+    ++stretch_levels_;
+  }
   while (square_levels_ <= kLargestSquare && square_levels_ < stretch_levels_ &&
          (1 << square_levels_) <= domain.height) {
     ++square_levels_;

@@ -18,7 +18,7 @@ class Occupancy {
   explicit Occupancy(const Domain& domain);
 
   [[nodiscard]] const Domain& domain() const { return domain_; }
-  /// Levels 0 to below this: no stretch is longer than the domain is wide.
+  /// Levels 0 to below this: no stretch is longer than the domain is wide, or than 64 cells.
   [[nodiscard]] int stretch_levels() const { return stretch_levels_; }
   /// Levels 1 to below this.
   [[nodiscard]] int square_levels() const { return square_levels_; }

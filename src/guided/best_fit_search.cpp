@@ -15,7 +15,7 @@ namespace {
 /// Scales tried at once, whatever the number of threads, so that the result does not depend on it.
 constexpr std::size_t kAtOnce = 2;
 constexpr double kTolerance = 0.004;  ///< of the factor of the scale
-constexpr double kLikely = 0.6;       ///< a factor that almost always succeeds
+constexpr double kLikely = 0.8;       ///< a factor that most often succeeds
 constexpr double kSmallest = 1e-3;    ///< give up when not even this does
 
 class BestFitSearch {

@@ -127,13 +127,21 @@ std::optional<Assembly> assemble(std::span<const ChartShape> shapes, std::span<c
     if (turn.strength > best.strength) best = std::move(turn);
   }
   if (best.strength == 0 || joiner.contact(group, best.periods) < kContact) return {};
-  for (const std::uint32_t chart : groups.members(group)) groups.move(chart, {best.angle, {}});
+  const Frame& frame = frames[best.frame];
+  const Vec2 sides = sides_of(frame, area);
+  const auto turn_all = [&] {
+    for (const std::uint32_t chart : groups.members(group)) groups.move(chart, {best.angle, {}});
+  };
+  turn_all();
+  if (options.wrap == Wrap::uv) {
+    joiner.relocate(group, sides);
+    best = turn_to_periods(joiner.periods(group), sides, options.wrap);
+    turn_all();
+  }
   if (!best.periods.empty()) joiner.settle(group, best.periods);
 
   Assembly result;
-  result.frame = best.frame;
-  const Frame& frame = frames[best.frame];
-  const Vec2 sides = sides_of(frame, area);
+  result.frame = static_cast<std::size_t>(&frame - frames.data());
   Box2 box;
   for (const Vec2 p : points_of(groups, group, shapes)) box.add(p);
   const Vec2 origin{wraps_u(options.wrap) ? 0 : box.min.x, wraps_v(options.wrap) ? 0 : box.min.y};

@@ -51,7 +51,9 @@ void search_assembly(std::span<const ChartShape> shapes, const PackOptions& opti
   const Frame& frame = frames[assembly->frame];
   Effort effort = record.effort(kRefineShare);
   Random random(options.seed);
-  auto fine = refine(shapes, frame, options, assembly->layout, {}, effort, random);
+  RefineOptions how;
+  how.exact = true;
+  auto fine = refine(shapes, frame, options, assembly->layout, how, effort, random);
   if (!fine) return;
   double area = 0;
   for (const ChartShape& shape : shapes) area += shape.area;

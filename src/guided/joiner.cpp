@@ -107,6 +107,51 @@ std::vector<Period> Joiner::periods(std::uint32_t group) const {
   return result;
 }
 
+void Joiner::relocate(std::uint32_t group, Vec2 sides) {
+  struct Wish {
+    Pose pose;
+    double strength;
+  };
+  const auto agree = [&](const Pose& a, const Pose& b) {
+    const Vec2 apart{std::remainder(a.shift.x - b.shift.x, sides.x),
+                     std::remainder(a.shift.y - b.shift.y, sides.y)};
+    return std::abs(std::remainder(a.angle - b.angle, 2 * std::numbers::pi)) < kSameAngle &&
+           length(apart) < kSamePlace * step_;
+  };
+  std::map<std::uint32_t, std::vector<std::size_t>> of_chart;
+  for (std::size_t m = 0; m < matches_.size(); ++m) {
+    if (group_a(m) != group || group_b(m) != group || chart_a(m) == chart_b(m)) continue;
+    of_chart[chart_a(m)].push_back(m);
+    of_chart[chart_b(m)].push_back(m);
+  }
+  std::vector<Wish> wishes;
+  for (const auto& [chart, matches] : of_chart) {
+    wishes.clear();
+    for (const std::size_t m : matches) {
+      const Pose& b_to_a = matches_[m].b_to_a;
+      const bool is_a = chart_a(m) == chart;
+      wishes.push_back({is_a ? groups_.pose(chart_b(m)).after(b_to_a.inverse())
+                             : groups_.pose(chart_a(m)).after(b_to_a),
+                        matches_[m].strength});
+    }
+    const auto support = [&](const Pose& pose) {
+      double sum = 0;
+      for (const Wish& wish : wishes) sum += agree(wish.pose, pose) ? wish.strength : 0;
+      return sum;
+    };
+    double most = support(groups_.pose(chart));
+    Pose best = groups_.pose(chart);
+    for (const Wish& wish : wishes) {
+      const double sum = support(wish.pose);
+      if (sum > most) {
+        most = sum;
+        best = wish.pose;
+      }
+    }
+    groups_.move(chart, best.after(groups_.pose(chart).inverse()));
+  }
+}
+
 double Joiner::contact(std::uint32_t group, std::span<const Period> periods) const {
   double whole = 0;
   std::vector<std::vector<bool>> touched;

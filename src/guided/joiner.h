@@ -31,6 +31,10 @@ class Joiner {
   /// Takes the charts of a group, of which the first rests, to where their matches agree best.
   /// `periods`: matches across the borders of the atlas, and how far it is from image to image.
   void settle(std::uint32_t group, std::span<const Period> periods);
+  /// Takes each chart of a group to where most of its matches want it, on a torus with these sides
+  /// along the axes; at first some may lie on others beyond its border, or where one match was
+  /// wrong.
+  void relocate(std::uint32_t group, Vec2 sides);
   /// Share of a group's borders that lies on others.
   [[nodiscard]] double contact(std::uint32_t group, std::span<const Period> periods) const;
   Groups& groups() { return groups_; }

@@ -45,7 +45,7 @@ std::optional<FineLayout> refine(std::span<const ChartShape> shapes, const Frame
       }
     } else if (!best) {
       // The next attempt begins where this one came closest.
-      if (fits) layout.spots = to_spots(places, library, domain);
+      if (fits && !how.exact) layout.spots = to_spots(places, library, domain);
       layout.scale *= 1 - how.first_step;
       if (layout.scale < kSmallest * start.scale) break;
       continue;

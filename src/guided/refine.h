@@ -24,7 +24,8 @@ struct RefineOptions {
   double first_step = 0.01;  ///< of the scale, relative
   double last_step = 0.001;
   int stall_rounds = 10;
-  int window = 6;  ///< cells
+  int window = 6;      ///< cells
+  bool exact = false;  ///< the layout is right but for its scale: each attempt begins with it anew
 };
 
 /// The largest scale at which the layout, slightly moved, is valid. Nothing if the effort was spent

@@ -46,7 +46,10 @@ def arguments():
     parser.add_argument("--csv", type=pathlib.Path, help="also write every number to this file")
     parser.add_argument("--guided", metavar="SECONDS",
                         help="also measure guided with this --time, without wrap and with")
-    parser.add_argument("--extra", default="", help="further arguments of wrapatlas pack")
+    parser.add_argument("--aspect", metavar="square|W:H|search|pow2",
+                        help="shape of the atlas, for all methods; default: as --resolution says")
+    parser.add_argument("--extra", default="",
+                        help="further arguments of wrapatlas pack for the paper's methods")
     options = parser.parse_args()
     options.methods = list(METHODS)
     if options.guided is not None:
@@ -60,9 +63,8 @@ def arguments():
 
 
 def own_options(method, options):
-    if method.method == "guided":
-        return ["--time", options.guided]
-    return shlex.split(options.extra)
+    own = ["--time", options.guided] if method.method == "guided" else shlex.split(options.extra)
+    return [*(["--aspect", options.aspect] if options.aspect else []), *own]
 
 
 def measured(group, path, method, options, folder):
@@ -128,7 +130,7 @@ def main():
     missing = [str(path) for _, path in options.inputs if not path.exists()]
     if missing:
         sys.exit(f"methods.py: no such file: {missing[0]}")
-    measure.print_origin(options, f"extra '{options.extra}'")
+    measure.print_origin(options, f"aspect {options.aspect}, extra '{options.extra}'")
     rows = measure_all(options)
     print("\nEfficiency: share of the atlas that charts cover, exact areas. Best on: share of the "
           "files; of equals, each counts.\nEvery packing passed `wrapatlas check`.")

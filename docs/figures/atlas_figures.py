@@ -2,6 +2,7 @@
 import json
 import re
 import subprocess
+import sys
 import tempfile
 
 from figures.svg import FONT, escaped
@@ -10,7 +11,7 @@ GROUND, LIGHT, DIM = "#ffffff", "#1f2430", "#555c68"
 
 
 def packed(command, root, sample, *options):
-    """The picture of a packing as SVG text, and its report."""
+    """The picture of a packing of a sample, or a file elsewhere, as SVG text, and its report."""
     with tempfile.TemporaryDirectory() as folder:
         ending = sample.rsplit(".", 1)[1]
         run = [str(command), "pack", str(root / "samples" / sample), "-o", f"{folder}/out.{ending}",
@@ -100,10 +101,24 @@ def pages(command, root):
 
 
 # Name of the picture: what draws it, and its width in pixels.
+def jigsaws(command, root):
+    parts = []
+    with tempfile.TemporaryDirectory() as folder:
+        for i, pieces in enumerate((10, 30, 100)):
+            sample, x = f"{folder}/{pieces}.obj", 20 + 528 * i
+            subprocess.run([sys.executable, str(root / "bench/jigsaw.py"), "--pieces", str(pieces),
+                            "--seed", "1", "-o", sample], check=True)
+            svg, report = packed(command, root, sample, "--time", "20", "--padding", "0")
+            parts += [words(x, 40, f"{pieces} pieces: {percent(report)}", 26, weight="bold"),
+                      panel(svg, f"jigsaw{pieces}", x, 60, 504, numbers=False)]
+    return sheet(1600, 584, parts)
+
+
 PICTURES = {
     "demo": (demo, 1500),
     "four-methods": (four_methods, 1600),
     "pages": (pages, 1200),
+    "jigsaws": (jigsaws, 1200),
     "modulo": (of_method("modulo", "machine.obj"), 600),
     "lprm02": (of_method("lprm02", "machine.obj"), 600),
     "swg03": (of_method("swg03", "machine.obj"), 600),

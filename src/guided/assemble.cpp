@@ -106,12 +106,14 @@ std::optional<Assembly> assemble(std::span<const ChartShape> shapes, std::span<c
       length_of_borders += length(shape.raster.points[edge.to] - shape.raster.points[edge.from]);
     }
   }
+  if (!(area > 0) || !(length_of_borders > 0)) return {};
   // n points are n^2 / 2 pairs.
   const double affordable = std::sqrt(2 * seconds / kSecondsPerPair);
   const double steps = std::min(kMostSteps, affordable * side / length_of_borders);
   if (!(steps >= kFewestSteps)) return {};
-  Joiner joiner(shapes, side / steps, thread_count(options.threads), effort);
-  joiner.join_all(effort);
+  Joiner joiner(shapes, side / steps);
+  if (!joiner.all_have_borders()) return {};
+  joiner.join_all(thread_count(options.threads), effort);
   Groups& groups = joiner.groups();
   const std::uint32_t group = groups.largest();
   if (groups.members(group).size() < shapes.size()) return {};
@@ -129,21 +131,26 @@ std::optional<Assembly> assemble(std::span<const ChartShape> shapes, std::span<c
   if (best.strength == 0 || joiner.contact(group, best.periods) < kContact) return {};
   const Frame& frame = frames[best.frame];
   const Vec2 sides = sides_of(frame, area);
-  const auto turn_all = [&] {
-    for (const std::uint32_t chart : groups.members(group)) groups.move(chart, {best.angle, {}});
+  const std::size_t chosen = best.frame;
+  const auto turn_all = [&](double angle) {
+    for (const std::uint32_t chart : groups.members(group)) groups.move(chart, {angle, {}});
   };
-  turn_all();
+  turn_all(best.angle);
   if (options.wrap == Wrap::uv) {
     joiner.relocate(group, sides);
     best = turn_to_periods(joiner.periods(group), sides, options.wrap);
-    turn_all();
+    if (best.strength == 0 || joiner.contact(group, best.periods) < kContact) return {};
+    turn_all(best.angle);
   }
   if (!best.periods.empty()) joiner.settle(group, best.periods);
 
   Assembly result;
-  result.frame = static_cast<std::size_t>(&frame - frames.data());
+  result.frame = chosen;
   Box2 box;
   for (const Vec2 p : points_of(groups, group, shapes)) box.add(p);
+  constexpr double kLargest = 1.1;  // of a side that does not wrap
+  if (!wraps_u(options.wrap) && box.size().x > kLargest * sides.x) return {};
+  if (!wraps_v(options.wrap) && box.size().y > kLargest * sides.y) return {};
   const Vec2 origin{wraps_u(options.wrap) ? 0 : box.min.x, wraps_v(options.wrap) ? 0 : box.min.y};
   result.layout.scale = frame.width * frame.cell.x / sides.x;
   for (std::uint32_t i = 0; i < shapes.size(); ++i) {
@@ -151,8 +158,9 @@ std::optional<Assembly> assemble(std::span<const ChartShape> shapes, std::span<c
     const double turns = (pose.angle - shapes[i].base_angle) / (2 * std::numbers::pi);
     const int angle = static_cast<int>(std::lround((turns - std::floor(turns)) * kAngleSteps));
     const Vec2 at{(pose.shift.x - origin.x) / sides.x, (pose.shift.y - origin.y) / sides.y};
-    result.layout.spots.push_back(
-        {angle % kAngleSteps, {at.x - std::floor(at.x), at.y - std::floor(at.y)}});
+    result.layout.spots.push_back({angle % kAngleSteps,
+                                   {wraps_u(options.wrap) ? at.x - std::floor(at.x) : at.x,
+                                    wraps_v(options.wrap) ? at.y - std::floor(at.y) : at.y}});
   }
   return result;
 }

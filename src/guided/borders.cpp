@@ -71,13 +71,14 @@ std::uint16_t direction_of(Vec2 along) {
 /// turns at the ends is left out: there it may already leave the other.
 double strength_of(const Border& border, int begin, int count) {
   constexpr double kStraight = 0.15;
-  int turning = 0;
+  std::int64_t turning = 0;
   for (int i = begin + kAround; i + 1 < begin + count - kAround; ++i) {
     const auto a = border.directions[static_cast<std::size_t>(border.index(i))];
     const auto b = border.directions[static_cast<std::size_t>(border.index(i + 1))];
     turning += std::abs(static_cast<std::int16_t>(static_cast<std::uint16_t>(b - a)));
   }
-  return count * std::min(1.0, kStraight + turning * 2 * std::numbers::pi / 65536);
+  return count *
+         std::min(1.0, kStraight + static_cast<double>(turning) * 2 * std::numbers::pi / 65536);
 }
 
 struct Run {
@@ -132,8 +133,8 @@ class RunFinder {
       }
     }
     best_.push_back(run);
-    std::sort(best_.begin(), best_.end(),
-              [](const Run& x, const Run& y) { return x.rank > y.rank; });
+    std::stable_sort(best_.begin(), best_.end(),
+                     [](const Run& x, const Run& y) { return x.rank > y.rank; });
     if (best_.size() > kKept) best_.pop_back();
   }
 
@@ -185,10 +186,10 @@ BorderMatch fitted(const Border& a, const Border& b, Run run, double step) {
       square += dot(on.point - q, on.point - q) / run.count;
       motion.add(q, on.point, on.along);
     }
-    if (std::sqrt(square) > step) return {};
+    if (!(std::sqrt(square) <= step)) return {};
     pose = motion.solve().after(pose);
   }
-  if (std::sqrt(square) > kClose * step || run.count < kFewest) return {};
+  if (!(std::sqrt(square) <= kClose * step) || run.count < kFewest) return {};
   BorderMatch match;
   match.begin_a = a.index(run.a);
   match.begin_b = b.index(run.b);
@@ -198,7 +199,7 @@ BorderMatch fitted(const Border& a, const Border& b, Run run, double step) {
   return match;
 }
 
-/// Leaves out matches all of whose points have several stronger ones.
+/// Leaves out matches half of whose points, on one side, have several stronger ones.
 void keep_strongest(std::vector<BorderMatch>& matches, std::span<const Border> borders) {
   constexpr std::uint8_t kPerPoint = 3;
   std::stable_sort(matches.begin(), matches.end(), [](const BorderMatch& x, const BorderMatch& y) {

@@ -31,6 +31,7 @@ bool Groups::join(std::uint32_t a, std::uint32_t b, const Pose& motion) {
   std::vector<Covered> moved;
   for (const std::uint32_t chart : members_[b]) {
     moved.push_back(covered(chart, motion.after(poses_[chart])));
+    if (moved.back().cells == 0) return false;  // too large to be looked at
     for (const std::uint32_t other : members_[a]) {
       const auto cells = static_cast<double>(std::min(moved.back().cells, covered_[other].cells));
       const std::int64_t shared = Cover::shared(moved.back().cover, covered_[other].cover);

@@ -16,11 +16,19 @@ constexpr double kCell = 2;          ///< steps, for the overlap of charts
 
 }  // namespace
 
-Joiner::Joiner(std::span<const ChartShape> shapes, double step, int threads, const Effort& effort)
-    : step_(step),
+Joiner::Joiner(std::span<const ChartShape> shapes, double step)
+    : charts_(shapes.size()),
+      step_(step),
       borders_(sample_borders(shapes, step)),
-      matches_(match_borders(borders_, step, threads, effort)),
       groups_(shapes, kCell * step) {}
+
+bool Joiner::all_have_borders() const {
+  std::size_t with = 0;  // a chart's borders follow each other
+  for (std::size_t i = 0; i < borders_.size(); ++i) {
+    if (i == 0 || borders_[i].chart != borders_[i - 1].chart) ++with;
+  }
+  return with == charts_;
+}
 
 /// What takes the group of b to where the match wants it, in the plane of the group of a.
 Pose Joiner::motion(std::size_t m) const {
@@ -38,7 +46,8 @@ bool Joiner::holds(std::size_t m) const {
   return same(motion(m), {}, groups_.pose(chart_b(m)).shift);
 }
 
-void Joiner::join_all(const Effort& effort) {
+void Joiner::join_all(int threads, const Effort& effort) {
+  matches_ = match_borders(borders_, step_, threads, effort);
   std::vector<std::size_t> open(matches_.size());
   std::iota(open.begin(), open.end(), std::size_t{0});
   std::vector<double> support(matches_.size(), -1);  // to be found anew when a group has grown

@@ -21,11 +21,13 @@ struct Period {
 class Joiner {
  public:
   /// `step`: input units between points of a border.
-  Joiner(std::span<const ChartShape> shapes, double step, int threads, const Effort& effort);
+  Joiner(std::span<const ChartShape> shapes, double step);
 
+  /// False if some chart is too small, or overlaps itself: it can never be joined.
+  [[nodiscard]] bool all_have_borders() const;
   /// Joins until nothing matches any more or the effort is spent, always what the most and the
   /// clearest matches agree on.
-  void join_all(const Effort& effort);
+  void join_all(int threads, const Effort& effort);
   /// Of all charts of a group.
   [[nodiscard]] std::vector<Period> periods(std::uint32_t group) const;
   /// Takes the charts of a group, of which the first rests, to where their matches agree best.
@@ -50,6 +52,7 @@ class Joiner {
   void update_support(std::span<const std::size_t> open, std::vector<double>& support) const;
   void add_contact(std::size_t m, std::uint32_t chart, Vec2 shift, MotionFit& fit) const;
 
+  std::size_t charts_;
   double step_;
   std::vector<Border> borders_;
   std::vector<BorderMatch> matches_;  ///< from strong to weak

@@ -38,7 +38,7 @@ Box2 moved_by(const Box2& box, Vec2 step) { return {box.min + step, box.max + st
 /// The segments within a window. Those along the way are left out: their neighbours speak for them.
 std::vector<Span> spans_of(const Outline& outline, Vec2 offset, const Box2& window, Vec2 along) {
   std::vector<Span> spans;
-  for (const Segment& segment : outline.segments) {
+  for (const OutlineSegment& segment : outline.segments) {
     const Vec2 a = segment.from + offset, b = segment.to + offset;
     Box2 box;
     box.add(a);

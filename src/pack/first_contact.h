@@ -7,12 +7,12 @@
 
 namespace wrapatlas {
 
-struct Segment {
+struct OutlineSegment {
   Vec2 from, to;
 };
 
 struct Outline {
-  std::vector<Segment> segments;
+  std::vector<OutlineSegment> segments;
   Box2 box;  ///< of the segments
 
   void add(Vec2 from, Vec2 to) {

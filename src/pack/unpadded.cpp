@@ -48,7 +48,7 @@ std::optional<Grown> grown_chart(const Chart& chart, const Packing& packing, std
   grown.page = packing.placements[index].page;
   grown.centre = 0.5 * (outline.box.min + outline.box.max);
   grown.half = 0.5 * outline.box.size();
-  for (const Segment& segment : outline.segments) {
+  for (const OutlineSegment& segment : outline.segments) {
     grown.outline.add(segment.from - grown.centre, segment.to - grown.centre);
   }
   if (wraps_u(packing.wrap)) grown.centre.x = wrapped(grown.centre.x, packing.width);

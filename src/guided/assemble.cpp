@@ -11,8 +11,8 @@
 namespace wrapatlas {
 namespace {
 
-/// Share of all borders that has to lie on others. Charts that happen to fit here and there come
-/// to a tenth; those cut from a sheet that wraps to 0.8, and less where the sheet had an end.
+/// Share of all borders that has to lie on others. Charts cut from one sheet touch along nearly all
+/// of them, but for where the sheet had an end; charts that merely fit here and there do not.
 constexpr double kContact = 0.4;
 
 double angle_between(double a, double b) { return std::remainder(a - b, 2 * std::numbers::pi); }
@@ -71,7 +71,8 @@ std::vector<Vec2> points_of(const Groups& groups, std::uint32_t group,
                             std::span<const ChartShape> shapes) {
   std::vector<Vec2> points;
   for (const std::uint32_t chart : groups.members(group)) {
-    for (const Vec2 p : shapes[chart].raster.points) points.push_back(groups.pose(chart).apply(p));
+    const PoseMap to_group(groups.pose(chart));
+    for (const Vec2 p : shapes[chart].raster.points) points.push_back(to_group.apply(p));
   }
   return points;
 }
@@ -84,7 +85,8 @@ Turn turn_to_box(const std::vector<Vec2>& points, Vec2 sides) {
   for (int quarter = 0; quarter < 2; ++quarter) {
     const double angle = quarter * std::numbers::pi / 2 - direction;
     Box2 box;
-    for (const Vec2 p : points) box.add(Pose{angle, {}}.apply(p));
+    const PoseMap turn({angle, {}});
+    for (const Vec2 p : points) box.add(turn.apply(p));
     const double larger = std::max(box.size().x / sides.x, box.size().y / sides.y);
     if (1 / larger > std::max(best.strength, kLike)) best = {0, angle, 1 / larger, {}};
   }
@@ -97,8 +99,7 @@ std::optional<Assembly> assemble(std::span<const ChartShape> shapes, std::span<c
                                  const PackOptions& options, double seconds, const Effort& effort) {
   constexpr double kSecondsPerPair = 8e-9;
   constexpr double kFewestSteps = 20, kMostSteps = 40;  // along the side of a mean chart
-  double area = 0;
-  for (const ChartShape& shape : shapes) area += shape.area;
+  const double area = total_area(shapes);
   const double side = std::sqrt(area / static_cast<double>(shapes.size()));
   double length_of_borders = 0;
   for (const ChartShape& shape : shapes) {

@@ -22,8 +22,11 @@ class BestFitSearch {
  public:
   BestFitSearch(std::span<const ChartShape> shapes, const PackOptions& options, const Frame& frame,
                 Record& record)
-      : shapes_(shapes), options_(options), frame_(frame), record_(record) {
-    for (const ChartShape& shape : shapes_) area_ += shape.area;
+      : shapes_(shapes),
+        options_(options),
+        frame_(frame),
+        record_(record),
+        area_(total_area(shapes)) {
     full_scale_ = full_scale();
     for (const ChartShape& shape : shapes_) {
       angles_.push_back(best_fit_angles(shape.base_angle, options.rotations));

@@ -168,8 +168,9 @@ BorderMatch fitted(const Border& a, const Border& b, Run run, double step) {
   double square = 0;
   for (int fit = 0; fit < kFits; ++fit) {
     if (fit == kFits / 2) {  // to both ends
+      const PoseMap to_a(pose);
       const auto touches = [&](int t) {
-        const Vec2 q = pose.apply(b.point(run.b - t));
+        const Vec2 q = to_a.apply(b.point(run.b - t));
         return length(nearest_on(a, q, run.a + t).point - q) < touching;
       };
       const int most = std::min(a.size(), b.size());
@@ -178,10 +179,11 @@ BorderMatch fitted(const Border& a, const Border& b, Run run, double step) {
       while (run.count < most && touches(run.count)) ++run.count;
       while (run.count < most && touches(-1)) --run.a, ++run.b, ++run.count;
     }
-    MotionFit motion(pose.apply(b.point(run.b - run.count / 2)));
+    const PoseMap to_a(pose);
+    MotionFit motion(to_a.apply(b.point(run.b - run.count / 2)));
     square = 0;
     for (int t = 0; t < run.count; ++t) {
-      const Vec2 q = pose.apply(b.point(run.b - t));
+      const Vec2 q = to_a.apply(b.point(run.b - t));
       const OnBorder on = nearest_on(a, q, run.a + t);
       square += dot(on.point - q, on.point - q) / run.count;
       motion.add(q, on.point, on.along);
@@ -255,7 +257,7 @@ std::vector<Border> sample_borders(std::span<const ChartShape> shapes, double st
 
 OnBorder nearest_on(const Border& border, Vec2 point, int near) {
   constexpr int kReach = 3;
-  OnBorder best{{}, {1, 0}, near};
+  OnBorder best{{}, {1, 0}};
   double least = std::numeric_limits<double>::infinity();
   for (int i = near - kReach; i < near + kReach; ++i) {
     const Vec2 from = border.point(i), along = border.point(i + 1) - from;
@@ -266,7 +268,7 @@ OnBorder nearest_on(const Border& border, Vec2 point, int near) {
     const double distance = dot(point - on, point - on);
     if (distance < least) {
       least = distance;
-      best = {on, (1 / std::sqrt(square)) * along, i};
+      best = {on, (1 / std::sqrt(square)) * along};
     }
   }
   return best;

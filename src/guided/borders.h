@@ -40,12 +40,11 @@ struct BorderMatch {
   double strength = 0;  ///< points in contact; those of straight lines, which fit anywhere, less
 };
 
-/// The nearest point of a border to `point` among its lines next to point number `near`, which is
-/// moved to the line found.
+/// A point of a border, and the unit vector along the line it is on.
 struct OnBorder {
   Vec2 point, along;
-  int near;
 };
+/// The nearest to `point` among the lines next to point number `near`.
 OnBorder nearest_on(const Border& border, Vec2 point, int near);
 
 /// All places where two borders run alike for a while, the strongest of each pair of borders.

@@ -26,8 +26,8 @@ CoarseSearch::CoarseSearch(std::span<const ChartShape> shapes, Vec2 lengths, boo
       wraps_x_(wraps_x),
       wraps_y_(wraps_y),
       options_(options),
+      area_(total_area(shapes)),
       random_(seed) {
-  for (const ChartShape& shape : shapes_) area_ += shape.area;
   cells_per_unit_ = options_.side * std::sqrt(kAimed / area_);
   RasterScale scale;
   scale.cells_per_unit = {cells_per_unit_, cells_per_unit_};

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace wrapatlas {
 namespace {
@@ -49,6 +50,18 @@ bool Groups::join(std::uint32_t a, std::uint32_t b, const Pose& motion) {
   return true;
 }
 
+void Groups::settled(std::uint32_t group) {
+  constexpr double kNoticed = 0.5;  // cells
+  for (const std::uint32_t chart : members_[group]) {
+    const Pose &now = poses_[chart], &then = covered_[chart].pose;
+    const double turned = std::abs(std::remainder(now.angle - then.angle, 2 * std::numbers::pi));
+    const double moved = length(now.shift - then.shift) / cell_ + turned * covered_[chart].reach;
+    if (moved > kNoticed) {
+      covered_[chart] = covered(chart, now);
+    }
+  }
+}
+
 Groups::Covered Groups::covered(std::uint32_t chart, const Pose& pose) const {
   RasterScale scale;
   scale.cells_per_unit = {1 / cell_, 1 / cell_};
@@ -64,6 +77,8 @@ Groups::Covered Groups::covered(std::uint32_t chart, const Pose& pose) const {
   };
   Covered result;
   result.cells = piece.cells;
+  result.pose = pose;
+  result.reach = length(Vec2{double(piece.width), double(piece.height)}) / 2;
   result.cover.set({kPlane, kPlane, false, false}, piece,
                    at(pose.shift.x / cell_, centre.x, piece.width),
                    at(pose.shift.y / cell_, centre.y, piece.height));

@@ -28,6 +28,8 @@ class Groups {
   void move(std::uint32_t chart, const Pose& motion) {
     poses_[chart] = motion.after(poses_[chart]);
   }
+  /// Charts of a group were moved: from now on they are in the way where they are.
+  void settled(std::uint32_t group);
   /// Puts group b, moved, to group a. False if charts would lie on each other.
   bool join(std::uint32_t a, std::uint32_t b, const Pose& motion);
 
@@ -35,6 +37,8 @@ class Groups {
   struct Covered {
     Cover cover;
     std::int64_t cells = 0;
+    Pose pose;         ///< at which it was found
+    double reach = 0;  ///< from the chart's centre, cells
   };
   [[nodiscard]] Covered covered(std::uint32_t chart, const Pose& pose) const;
 

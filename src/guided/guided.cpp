@@ -54,12 +54,7 @@ void search_assembly(std::span<const ChartShape> shapes, const PackOptions& opti
   RefineOptions how;
   how.exact = true;
   auto fine = refine(shapes, frame, options, assembly->layout, how, effort, random);
-  if (!fine) return;
-  double area = 0;
-  for (const ChartShape& shape : shapes) area += shape.area;
-  record.offer(make_packing(frame, options.wrap, fine->layout.scale, area,
-                            std::move(fine->placements), fine->covered_cells),
-               1);
+  if (fine) record.offer(std::move(*fine), 1);
 }
 
 }  // namespace

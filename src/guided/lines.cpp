@@ -25,7 +25,6 @@ constexpr double kRefineShare = 0.1, kRefineSeconds = 0.5;
 Lines::Lines(std::span<const ChartShape> shapes, const PackOptions& options,
              std::span<const Frame> frames, Record& record)
     : shapes_(shapes), options_(options), record_(record) {
-  for (const ChartShape& shape : shapes) area_ += shape.area;
   const std::size_t count = frames.size() > 1 ? frames.size() : lines_wanted();
   for (std::size_t i = 0; i < count; ++i) {
     const Frame& frame = frames[i % frames.size()];
@@ -67,10 +66,7 @@ void Lines::improve(Line& line, Effort& effort) {
   if (!line.coarse.found() || line.coarse.efficiency() <= line.refined) return;
   line.refined = line.coarse.efficiency();
   auto fine = refine(shapes_, *line.frame, options_, line.coarse.best(), {}, effort, line.random);
-  if (!fine) return;
-  record_.offer(make_packing(*line.frame, options_.wrap, fine->layout.scale, area_,
-                             std::move(fine->placements), fine->covered_cells),
-                1 + line.offers++ * lines_.size() + line.number);
+  if (fine) record_.offer(std::move(*fine), 1 + line.offers++ * lines_.size() + line.number);
 }
 
 /// Lets every line search in the given part of the whole time, or of the moves, an equal part each.

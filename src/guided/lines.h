@@ -43,7 +43,6 @@ class Lines {
   std::span<const ChartShape> shapes_;
   const PackOptions& options_;
   Record& record_;
-  double area_ = 0;
   std::vector<std::unique_ptr<Line>> lines_;
 };
 

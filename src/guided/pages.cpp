@@ -66,10 +66,8 @@ class DensitySearch {
     return fill_pages(task_, options_.density, order, most, [this] { return record_.poll(); });
   }
   void offer() {
-    double area = 0;
-    for (const ChartShape& shape : task_.shapes) area += shape.area;
-    record_.offer(make_packing(task_.frame, task_.wrap, options_.density, area, best_.placements,
-                               best_.covered(), best_.pages()),
+    record_.offer(make_packing(task_.frame, task_.wrap, options_.density, total_area(task_.shapes),
+                               best_.placements, best_.covered(), best_.pages()),
                   1);
   }
 

@@ -5,6 +5,12 @@
 
 namespace wrapatlas {
 
+double total_area(std::span<const ChartShape> shapes) {
+  double area = 0;
+  for (const ChartShape& shape : shapes) area += shape.area;
+  return area;
+}
+
 PieceLibrary::PieceLibrary(std::span<const ChartShape> shapes, const RasterScale& scale, int angles,
                            int max_side)
     : shapes_(shapes),

@@ -19,6 +19,8 @@ struct ChartShape {
   double area = 0;        ///< input units^2
 };
 
+double total_area(std::span<const ChartShape> shapes);
+
 /// Angle number k of a chart is base_angle + 2 pi k / angles. Not for several threads at once.
 class PieceLibrary {
  public:

@@ -27,6 +27,22 @@ struct Pose {
   }
 };
 
+/// What a pose does to points, for many of them.
+class PoseMap {
+ public:
+  explicit PoseMap(const Pose& pose)
+      : cosine_(std::cos(pose.angle)), sine_(std::sin(pose.angle)), shift_(pose.shift) {}
+
+  [[nodiscard]] Vec2 turned(Vec2 p) const {
+    return {cosine_ * p.x - sine_ * p.y, sine_ * p.x + cosine_ * p.y};
+  }
+  [[nodiscard]] Vec2 apply(Vec2 p) const { return turned(p) + shift_; }
+
+ private:
+  double cosine_, sine_;
+  Vec2 shift_;
+};
+
 /// Least squares for the small motion that takes points to lines: along a line they move almost
 /// freely, as nothing says which of its points is theirs.
 class MotionFit {

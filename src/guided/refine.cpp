@@ -9,17 +9,18 @@ constexpr double kSmallest = 0.5;  ///< of the first scale: below it, the layout
 
 }  // namespace
 
-std::optional<FineLayout> refine(std::span<const ChartShape> shapes, const Frame& frame,
-                                 const PackOptions& options, const Layout& start,
-                                 const RefineOptions& how, Effort& effort, Random& random) {
+std::optional<Packing> refine(std::span<const ChartShape> shapes, const Frame& frame,
+                              const PackOptions& options, const Layout& start,
+                              const RefineOptions& how, Effort& effort, Random& random) {
   const Domain domain{frame.width, frame.height, wraps_u(options.wrap), wraps_v(options.wrap)};
   SeparateOptions separate;
   separate.window = how.window;
   separate.stall_rounds = how.stall_rounds;
   separate.angle_step = 12;
   separate.effort = &effort;
-  std::optional<FineLayout> best;
-  Layout layout = start;
+  const double area = total_area(shapes);
+  std::optional<Packing> best;
+  Layout layout = start, good;
   double step = how.first_step;
   while (!effort.spent()) {
     RasterScale scale;
@@ -35,14 +36,16 @@ std::optional<FineLayout> refine(std::span<const ChartShape> shapes, const Frame
     Separator separator(library, domain, random);
     if (fits && separator.run(places, separate)) {
       layout.spots = to_spots(places, library, domain);
-      best.emplace();
-      best->layout = layout;
+      good = layout;
+      std::int64_t covered_cells = 0;
+      std::vector<Placement> placements;
       for (std::size_t i = 0; i < places.size(); ++i) {
         const Piece& piece = library.piece(i, places[i].angle);
-        best->covered_cells += piece.cells;
-        best->placements.push_back(
-            place_on(frame, piece.angle, piece.offset, places[i].x, places[i].y));
+        covered_cells += piece.cells;
+        placements.push_back(place_on(frame, piece.angle, piece.offset, places[i].x, places[i].y));
       }
+      best = make_packing(frame, options.wrap, layout.scale, area, std::move(placements),
+                          covered_cells);
     } else if (!best) {
       // The next attempt begins where this one came closest.
       if (fits && !how.exact) layout.spots = to_spots(places, library, domain);
@@ -50,11 +53,11 @@ std::optional<FineLayout> refine(std::span<const ChartShape> shapes, const Frame
       if (layout.scale < kSmallest * start.scale) break;
       continue;
     } else {
-      layout = best->layout;
+      layout = good;
       step /= 2;
       if (step < how.last_step) break;
     }
-    layout.scale = best->layout.scale * (1 + step);
+    layout.scale = good.scale * (1 + step);
   }
   return best;
 }

@@ -13,13 +13,6 @@
 
 namespace wrapatlas {
 
-/// A layout without overlap on the final grid.
-struct FineLayout {
-  Layout layout;
-  std::vector<Placement> placements;
-  std::int64_t covered_cells = 0;
-};
-
 struct RefineOptions {
   double first_step = 0.01;  ///< of the scale, relative
   double last_step = 0.001;
@@ -28,10 +21,10 @@ struct RefineOptions {
   bool exact = false;  ///< the layout is right but for its scale: each attempt begins with it anew
 };
 
-/// The largest scale at which the layout, slightly moved, is valid. Nothing if the effort was spent
-/// before one was found, or there is none.
-std::optional<FineLayout> refine(std::span<const ChartShape> shapes, const Frame& frame,
-                                 const PackOptions& options, const Layout& start,
-                                 const RefineOptions& how, Effort& effort, Random& random);
+/// The layout, slightly moved, at the largest scale at which it is valid on the final grid. Nothing
+/// if the effort was spent before one was found, or there is none.
+std::optional<Packing> refine(std::span<const ChartShape> shapes, const Frame& frame,
+                              const PackOptions& options, const Layout& start,
+                              const RefineOptions& how, Effort& effort, Random& random);
 
 }  // namespace wrapatlas

@@ -21,14 +21,16 @@ double wave(double t, int which) {
   return 0.6 * std::sin(2 * kPi * t * 2 + which) + 0.4 * std::sin(2 * kPi * t * 5 + 2.3 * which);
 }
 
-/// A sheet of 1 x 1 cut into n x n pieces along waves, each piece turned and moved.
+/// A sheet of 1 x 1 that wraps along some axes, cut into n x n pieces along waves, each piece
+/// turned and moved.
 struct Sheet {
   std::vector<Chart> charts;
   std::vector<Pose> poses;  ///< from the sheet to the chart
 
-  Sheet(int n, double height, bool wraps, std::uint64_t seed) {
+  Sheet(int n, double height, Wrap wrap, std::uint64_t seed) {
     Random random(seed);
     const auto bent = [&](int line, double t, int which) {
+      const bool wraps = which == 0 ? wraps_u(wrap) : wraps_v(wrap);
       const bool straight = !wraps && (line == 0 || line == n);
       return (line + (straight ? 0 : height * wave(t, line % n + which))) / n;
     };
@@ -150,7 +152,7 @@ TEST(Borders, PointsOfASquareAreAsFarApartAsWished) {
 }
 
 TEST(Borders, NeighboursMatchAndTheMatchTakesOneToTheOther) {
-  const Sheet sheet(2, 0.15, false, 1);
+  const Sheet sheet(2, 0.15, Wrap::none, 1);
   const double step = 0.5 / 40;
   const auto shapes = shapes_of(sheet.charts);
   const auto borders = sample_borders(shapes, step);
@@ -175,7 +177,7 @@ TEST(Borders, NeighboursMatchAndTheMatchTakesOneToTheOther) {
 
 TEST(Assemble, ATorusIsPutTogether) {
   for (const std::uint64_t seed : {1U, 2U, 3U}) {
-    const Sheet sheet(3, 0.15, true, seed);
+    const Sheet sheet(3, 0.15, Wrap::uv, seed);
     const auto result = assembled(sheet.charts, Wrap::uv);
     ASSERT_TRUE(result) << seed;
     EXPECT_NEAR(result->layout.scale, 512, 0.5);
@@ -185,7 +187,7 @@ TEST(Assemble, ATorusIsPutTogether) {
 
 TEST(Assemble, ASquareIsPutTogether) {
   for (const std::uint64_t seed : {1U, 2U, 3U}) {
-    const Sheet sheet(4, 0.15, false, seed);
+    const Sheet sheet(4, 0.15, Wrap::none, seed);
     const auto result = assembled(sheet.charts, Wrap::none);
     ASSERT_TRUE(result) << seed;
     EXPECT_LT(largest_miss(sheet, result->layout), 0.01) << seed;
@@ -196,16 +198,32 @@ TEST(Assemble, ASquareIsPutTogether) {
   }
 }
 
+TEST(Assemble, ASheetThatWrapsAlongOneAxisIsPutTogether) {
+  for (const Wrap wrap : {Wrap::u, Wrap::v}) {
+    for (const std::uint64_t seed : {1U, 2U, 3U}) {
+      const Sheet sheet(4, 0.15, wrap, seed);
+      const auto result = assembled(sheet.charts, wrap);
+      ASSERT_TRUE(result) << seed;
+      EXPECT_LT(largest_miss(sheet, result->layout), 0.01) << seed;
+      for (const ChartSpot& spot : result->layout.spots) {
+        const double across = wrap == Wrap::u ? spot.centre.y : spot.centre.x;
+        EXPECT_GT(across, 0.05);
+        EXPECT_LT(across, 0.95);
+      }
+    }
+  }
+}
+
 TEST(Assemble, AnAtlasOfAnotherShapeIsNotFilled) {
-  EXPECT_FALSE(assembled(Sheet(3, 0.15, true, 1).charts, Wrap::uv, 1024, 512));
-  EXPECT_FALSE(assembled(Sheet(3, 0.15, false, 1).charts, Wrap::none, 1024, 512));
+  EXPECT_FALSE(assembled(Sheet(3, 0.15, Wrap::uv, 1).charts, Wrap::uv, 1024, 512));
+  EXPECT_FALSE(assembled(Sheet(3, 0.15, Wrap::none, 1).charts, Wrap::none, 1024, 512));
 }
 
 TEST(Assemble, PiecesOfManySheetsAreNotPutTogether) {
   std::vector<Chart> charts;
   for (std::size_t i = 0; i < 9; ++i) {
     const double height = 0.1 + 0.01 * static_cast<double>(i);
-    charts.push_back(Sheet(3, height, true, i).charts[i]);
+    charts.push_back(Sheet(3, height, Wrap::uv, i).charts[i]);
   }
   EXPECT_FALSE(assembled(charts, Wrap::uv));
 }
@@ -221,7 +239,7 @@ TEST(Assemble, SquaresWhoseSidesFitAnywhereAreLeftAlone) {
 }
 
 TEST(Assemble, StopsWhenItIsTold) {
-  const Sheet sheet(3, 0.15, true, 1);
+  const Sheet sheet(3, 0.15, Wrap::uv, 1);
   PackOptions options;
   options.width = options.height = 512;
   const auto frames = make_frames(options, 1);

@@ -14,6 +14,7 @@ namespace {
 
 Packing packed(const ChartSet& charts, int resolution, double padding) {
   PackOptions options;
+  options.method = Method::modulo;
   options.width = options.height = resolution;
   options.padding = padding;
   options.grid = 64;

@@ -57,13 +57,17 @@ void add_search_options(CLI::App& app, PackArguments& a) {
   add_number(app, "--moves", options.moves, {0, 1e15, "moves"},
              "guided: search for so many moves of charts instead of a time, so that the result is "
              "the same on every machine; 0: --time counts");
-  add_number(app, "--rotations", options.rotations, {1, 3600, "angles"},
-             "Angles each chart is tried at (lprm02 has one of its own)");
+  add_number(
+      app, "--rotations", options.rotations, {1, 3600, "angles"},
+      "Angles each chart is tried at (lprm02 has one of its own). guided: in best fit; when it "
+      "separates charts it has more of its own");
   add_choice(app, "--rotation-base", options.rotation_base, kRotationBases,
              "Angles counted from the chart's input axes (the paper), or from its smallest box");
-  add_number(app, "--grid", options.grid, {0, 8192, "cells"},
-             "Cells along the longer side of the search grid; finer is slower and, as a rule, "
-             "denser. 0: 256, more for many charts");
+  add_number(
+      app, "--grid", options.grid, {0, 8192, "cells"},
+      "Cells along the longer side of the search grid; finer is slower and, as a rule, "
+      "denser. 0: guided, a cell to a texel up to 2048, or 4096 for more than 200 charts; the "
+      "others 256, more for many charts");
   add_choice(app, "--coverage", options.coverage, kCoverages,
              "When a cell belongs to a chart: conservative (safe), or center (the paper's; charts "
              "may overlap by part of a cell)");
@@ -105,7 +109,8 @@ const MethodOption kMethodOptions[] = {
     {"--density", {Method::guided}},
     {"--pages", {Method::guided}},
     {"--udim", {Method::guided}},
-    {"--rotations", {Method::modulo, Method::swg03, Method::zsgs04, Method::lprm02}},
+    {"--rotations",
+     {Method::guided, Method::modulo, Method::swg03, Method::zsgs04, Method::lprm02}},
     {"--scale-start", {Method::modulo, Method::swg03, Method::zsgs04, Method::lprm02}},
     {"--rotation-base", {Method::modulo, Method::swg03, Method::zsgs04}},
     {"--lambda", {Method::modulo}},
@@ -137,6 +142,7 @@ Status refuse_useless(const CLI::App& app, const PackArguments& a) {
        "leave it out"},
       {"--margin", wrap == Wrap::uv, "both axes wrap, so there are no sides to keep away from",
        "leave it out, or give --wrap u, v or none"},
+      {"--time", a.options.moves > 0, "--moves counts instead", "give one of them"},
       {"--verbose", a.quiet, "it contradicts --quiet", "give one of them"},
   };
   return refuse_ignored(app, ignored);

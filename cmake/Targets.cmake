@@ -26,6 +26,14 @@ function(wrapatlas_compile_quickly target)
   target_compile_options(${target} PRIVATE $<$<NOT:$<CONFIG:Debug>>:-Og>)
 endfunction()
 
+# Headers that take longer to read than the files that use them. Not what clang builds: it has to
+# find what a file forgot to include.
+function(wrapatlas_read_once target)
+  if(PROJECT_IS_TOP_LEVEL AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    target_precompile_headers(${target} PRIVATE ${ARGN})
+  endif()
+endfunction()
+
 # A library from all sources of the named folders below src/. wrapatlas_x is wrapatlas::x outside.
 function(wrapatlas_library target)
   set(sources "")

@@ -63,8 +63,9 @@ struct PackOptions {
   bool inner = true;         ///< modulo: also try the four inner strategies
   bool all_sides = false;    ///< zsgs04: try all four sides for every chart
   double time = 1;           ///< guided: seconds to search, 0 to 1e6; 0: until it is stuck once
-  std::int64_t moves = 0;    ///< guided: if > 0, search for so many moves of charts instead
-  int threads = 0;           ///< 0: as many as the machine has; never changes the result
+  std::int64_t moves = 0;    ///< guided: if > 0, so many moves of charts instead of `time`,
+                             ///< but for more than 1,000 charts: see docs/algorithms/guided.md
+  int threads = 0;           ///< 0: as many as the machine has
   std::uint64_t seed = 0;    ///< guided: of its random numbers; the others draw none
 
   /// guided: texels per input UV unit, a scale that is kept exactly; 0: the largest is sought.
@@ -125,7 +126,8 @@ struct Packing {
 /// fits at any scale tried; or, at the density asked for, a chart is larger than a page, or more
 /// pages are needed than allowed), interrupted (stopped before the first packing). No charts at all
 /// is a usage error.
-/// The same charts and options give the same bits for any number of threads.
+/// The same charts and options give the same bits for any number of threads and on any machine;
+/// from guided only if `moves` is not 0, or `time` is: else it goes by the clock.
 Result<Packing> pack(std::span<const Chart> charts, const PackOptions& options);
 
 /// Efficiency without padding on the same layout: all charts are enlarged by one factor k >= 1,

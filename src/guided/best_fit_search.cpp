@@ -20,12 +20,14 @@ constexpr double kSmallest = 1e-3;    ///< give up when not even this does
 
 class BestFitSearch {
  public:
+  /// `share`: of the time, after which it ends.
   BestFitSearch(std::span<const ChartShape> shapes, const PackOptions& options, const Frame& frame,
-                Record& record)
+                Record& record, double share)
       : shapes_(shapes),
         options_(options),
         frame_(frame),
         record_(record),
+        share_(share),
         area_(total_area(shapes)) {
     full_scale_ = full_scale();
     for (const ChartShape& shape : shapes_) {
@@ -35,9 +37,9 @@ class BestFitSearch {
   }
 
   void find_scale() {
-    double lower = 0, upper = 1, likely = kLikely;
-    while (!(best_factor_ > 0 && done()) && !record_.stopped() &&
-           upper - lower > std::min(kTolerance, upper / 10)) {
+    // Of no use is what is no denser than what another frame or method has come to.
+    double lower = factor_of(record_.efficiency()), upper = 1, likely = kLikely;
+    while (!done() && upper - lower > std::min(kTolerance, upper / 10)) {
       std::array<double, kAtOnce> factors{lower + (upper - lower) / 3,
                                           lower + 2 * (upper - lower) / 3};
       if (lower == 0) factors = {likely, likely + (upper - likely) / 2};
@@ -78,6 +80,11 @@ class BestFitSearch {
     return std::sqrt(frame_.texels() / std::max(area_ / options_.pages, largest));
   }
 
+  [[nodiscard]] double factor_of(double efficiency) const {
+    const double pages = std::max(1, options_.pages);
+    return std::sqrt(efficiency * pages * frame_.texels() / area_) / full_scale_;
+  }
+
   /// A chart order: by area, blurred a little for all numbers but 0.
   [[nodiscard]] std::vector<std::uint32_t> order_of(std::uint64_t number) const {
     std::vector<std::uint32_t> charts(shapes_.size());
@@ -93,9 +100,7 @@ class BestFitSearch {
     constexpr double kShort = 3;  // seconds
     return record_.timed() && options_.time < kShort;
   }
-  [[nodiscard]] bool done() {
-    return record_.poll() || (record_.timed() && Effort::Clock::now() >= record_.at(1));
-  }
+  [[nodiscard]] bool done() { return record_.enough(share_); }
 
   /// The largest of the factors that succeeds, or their number.
   std::size_t try_all(const std::array<double, kAtOnce>& factors) {
@@ -107,7 +112,7 @@ class BestFitSearch {
         for (std::size_t larger = i + 1; larger < kAtOnce; ++larger) {
           if (succeeded[larger]) return true;
         }
-        return best_factor_ > 0 ? done() : record_.poll();
+        return done();
       };
       succeeded[i] = attempt(factors[i], by_area_, stop);
     });
@@ -141,6 +146,7 @@ class BestFitSearch {
   const PackOptions& options_;
   const Frame& frame_;
   Record& record_;
+  double share_;
   double area_ = 0, full_scale_ = 0;
   std::vector<std::vector<double>> angles_;
   std::vector<std::uint32_t> by_area_;
@@ -152,8 +158,9 @@ class BestFitSearch {
 
 void search_best_fit(std::span<const ChartShape> shapes, const PackOptions& options,
                      std::span<const Frame> frames, Record& record, bool go_on) {
-  for (const Frame& frame : frames) {
-    BestFitSearch search(shapes, options, frame, record);
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const double share = static_cast<double>(i + 1) / static_cast<double>(frames.size());
+    BestFitSearch search(shapes, options, frames[i], record, share);
     search.find_scale();
     if (go_on && frames.size() == 1 && record.timed()) search.vary();
   }

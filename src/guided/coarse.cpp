@@ -8,6 +8,7 @@ namespace {
 
 constexpr double kAimed = 0.85;  ///< efficiency at which the domain has CoarseOptions::side cells
 constexpr double kStart = 0.55;  ///< efficiency of the first domain
+constexpr int kLongest = 16;     ///< times CoarseOptions::side: charts and domains up to that
 constexpr int kFirstStride = 3;  ///< steps at a time until the first domain that was not filled
 
 std::vector<Place> scaled(const std::vector<Place>& places, PieceLibrary& library,
@@ -33,7 +34,8 @@ CoarseSearch::CoarseSearch(std::span<const ChartShape> shapes, Vec2 lengths, boo
   scale.cells_per_unit = {cells_per_unit_, cells_per_unit_};
   scale.growth = options_.grown * options_.side / std::sqrt(lengths_.x * lengths_.y);
   scale.coverage = Coverage::center;
-  library_ = std::make_unique<PieceLibrary>(shapes_, scale, options_.angles, 4 * options_.side);
+  library_ =
+      std::make_unique<PieceLibrary>(shapes_, scale, options_.angles, kLongest * options_.side);
   start_step_ = static_cast<int>(std::lround(2 * options_.side * std::sqrt(kAimed / kStart)));
   begin_anew();
 }
@@ -108,7 +110,7 @@ bool CoarseSearch::fit_angles(const Domain& domain, std::vector<Place>& places) 
   return true;
 }
 
-/// Swaps two charts, or throws a few anywhere.
+/// Swaps two charts, once or twice; of one or two charts it throws one anywhere.
 void CoarseSearch::disturb(std::vector<Place>& places, const Domain& domain) {
   const int count = static_cast<int>(places.size());
   const int swaps = 1 + random_.below(2);
@@ -151,6 +153,7 @@ void CoarseSearch::run(Effort& effort, bool until_stuck) {
     if (effort.spent()) break;
     if (filled_step_ == 0) {  // a hard set: more room
       step_ += 1 + step_ / 20;
+      if (step_ > 2 * kLongest * options_.side) return;
       start_step_ = std::max(start_step_, step_);
       places_ = places;
       step_of_places_ = step_;

@@ -14,7 +14,7 @@
 namespace wrapatlas {
 
 struct CoarseOptions {
-  int side = 160;    ///< cells along the side of a square domain packed to 85 %
+  int side = 0;      ///< cells along the side of a square domain packed to 85 %
   int angles = 64;   ///< tried per chart; divides kAngleSteps
   double grown = 0;  ///< texels by which charts are grown
   int stall_rounds = 40;
@@ -30,7 +30,8 @@ class CoarseSearch {
 
   /// Begins with this layout, in place of charts anywhere.
   void begin_with(const Layout& layout);
-  /// Goes on until the effort is spent, or `until_stuck` and a domain has not been filled.
+  /// Goes on until the effort is spent, or `until_stuck` and a domain has not been filled. Gives up
+  /// where no domain is large enough, for charts very long beside their area.
   void run(Effort& effort, bool until_stuck);
 
   [[nodiscard]] bool found() const { return best_step_ > 0; }

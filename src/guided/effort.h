@@ -19,6 +19,8 @@ class Effort {
   void until(Clock::time_point deadline) { deadline_ = deadline; }
   void moves(std::int64_t count) { limit_ = count; }
 
+  [[nodiscard]] std::int64_t moves_made() const { return moves_; }
+
   /// One chart was put somewhere anew.
   void count_move() { ++moves_; }
   [[nodiscard]] bool stopped() const { return stop_ && stop_(); }

@@ -1,4 +1,5 @@
-// Few charts: modulo's packing, then separation. Many: best fit, from different orders.
+// Few charts: modulo's packing, then separation. More: best fit, then separation if there is time.
+// Many: best fit, from different orders.
 
 #include "guided/guided.h"
 
@@ -84,6 +85,7 @@ Result<Packing> pack_guided(std::span<const Chart> charts, const PackOptions& op
   };
   if (separate) take_first();
   if (failure && failure->kind == ErrorKind::interrupted) return *failure;
+  if (record.best() && record.best()->interrupted) return std::move(*record.best());
   const std::vector<ChartShape> shapes = make_shapes(charts);
   if (separate) {
     // With so little time separation may come to nothing.
@@ -96,10 +98,11 @@ Result<Packing> pack_guided(std::span<const Chart> charts, const PackOptions& op
     if (record.best()) lines.begin_with(*record.best(), false);
     lines.run();
   } else {
-    const bool improve = charts.size() <= kMostImproved && frames->size() == 1;
+    const bool improve = charts.size() <= kMostImproved && frames->size() == 1 &&
+                         (record.timed() || options.moves > 0);
     search_best_fit(shapes, options, *frames, record, !improve);
     if (!record.best() && !record.stopped()) take_first();
-    if (improve && record.best() && record.timed()) {
+    if (improve && record.best()) {
       Lines lines(shapes, options, *frames, record);
       lines.begin_with(*record.best(), true);
       lines.run();

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <numeric>
 
 #include "pack/parallel.h"
 
@@ -24,7 +26,7 @@ constexpr double kRefineShare = 0.1, kRefineSeconds = 0.5;
 
 Lines::Lines(std::span<const ChartShape> shapes, const PackOptions& options,
              std::span<const Frame> frames, Record& record)
-    : shapes_(shapes), options_(options), record_(record) {
+    : shapes_(shapes), options_(options), record_(record), moves_left_(options.moves) {
   const std::size_t count = frames.size() > 1 ? frames.size() : lines_wanted();
   for (std::size_t i = 0; i < count; ++i) {
     const Frame& frame = frames[i % frames.size()];
@@ -69,19 +71,22 @@ void Lines::improve(Line& line, Effort& effort) {
   if (fine) record_.offer(std::move(*fine), 1 + line.offers++ * lines_.size() + line.number);
 }
 
-/// Lets every line search in the given part of the whole time, or of the moves, an equal part each.
+/// Lets every line search in the given part of the whole time, an equal part each; or, of the moves
+/// that are left, as many as that is of the part that is left.
 void Lines::spend(double from, double to, bool until_stuck) {
   const double turns =
       std::ceil(static_cast<double>(lines_.size()) / std::max(1, thread_count(options_.threads)));
+  const double share = (to - from) / (end() - from) / static_cast<double>(lines_.size());
+  const auto moves = static_cast<std::int64_t>(share * static_cast<double>(moves_left_)) + 1;
+  std::vector<std::int64_t> made(lines_.size());
   parallel_for(lines_.size(), thread_count(options_.threads), [&](std::size_t i) {
     const double turn = std::floor(static_cast<double>(i) / thread_count(options_.threads));
     Effort effort = record_.effort(from + (to - from) * (turn + 1) / turns);
-    if (options_.moves > 0) {
-      const double share = (to - from) / static_cast<double>(lines_.size());
-      effort.moves(static_cast<std::int64_t>(share * static_cast<double>(options_.moves)) + 1);
-    }
+    if (options_.moves > 0) effort.moves(moves);
     lines_[i]->coarse.run(effort, until_stuck);
+    made[i] = effort.moves_made();
   });
+  moves_left_ = std::accumulate(made.begin(), made.end(), moves_left_, std::minus<>());
 }
 
 void Lines::keep_best(std::size_t count) {
@@ -102,9 +107,12 @@ void Lines::share_best() {
   }
 }
 
+/// Of the time; the last refinement has the rest. It takes no part of the moves.
+double Lines::end() const {
+  return record_.timed() ? 1 - std::min(kRefineShare, kRefineSeconds / options_.time) : 1;
+}
+
 void Lines::run() {
-  const double end =
-      1 - (record_.timed() ? std::min(kRefineShare, kRefineSeconds / options_.time) : kRefineShare);
   const bool once = !record_.timed() && options_.moves == 0;
   double spent = 0;
   const std::size_t wanted = lines_wanted();
@@ -121,7 +129,7 @@ void Lines::run() {
       if (once) break;
     }
   } else {
-    spend(0, end, true);
+    spend(0, end(), true);
   }
   const auto improve_all = [&] {
     each_line([&](Line& line) {
@@ -133,8 +141,8 @@ void Lines::run() {
   if (once) return;
   for (int epoch = 1; epoch <= kEpochs && !record_.stopped(); ++epoch) {
     share_best();
-    const double from = spent + (end - spent) * (epoch - 1) / kEpochs;
-    const double to = spent + (end - spent) * epoch / kEpochs;
+    const double from = spent + (end() - spent) * (epoch - 1) / kEpochs;
+    const double to = spent + (end() - spent) * epoch / kEpochs;
     spend(from, to, false);
     improve_all();
   }

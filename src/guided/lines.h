@@ -39,10 +39,12 @@ class Lines {
   void keep_best(std::size_t count);
   void share_best();
   [[nodiscard]] std::size_t lines_wanted() const;
+  [[nodiscard]] double end() const;
 
   std::span<const ChartShape> shapes_;
   const PackOptions& options_;
   Record& record_;
+  std::int64_t moves_left_;
   std::vector<std::unique_ptr<Line>> lines_;
 };
 

@@ -76,7 +76,9 @@ std::optional<PageFilling> fill_pages(const PageTask& task, double scale,
   std::vector<std::uint32_t> rest(order.begin(), order.end()), next;
   double rest_cells = 0;
   for (const std::uint32_t chart : rest) {
-    rest_cells += least_cells(task, task.shapes[chart].area, scale);
+    const double least = least_cells(task, task.shapes[chart].area, scale);
+    if (least > cells_of(task.frame)) return {};
+    rest_cells += least;
   }
   while (!rest.empty()) {
     const int pages = filling.pages();

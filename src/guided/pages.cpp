@@ -28,8 +28,9 @@ std::string pages_text(int pages, const PackOptions& options) {
 /// The fewest pages at a given scale, on one frame.
 class DensitySearch {
  public:
-  DensitySearch(const PageTask& task, const PackOptions& options, Record& record)
-      : task_(task), options_(options), record_(record) {}
+  /// `share`: of the time, after which it ends.
+  DensitySearch(const PageTask& task, const PackOptions& options, Record& record, double share)
+      : task_(task), options_(options), record_(record), share_(share) {}
 
   void run() {
     std::vector<std::uint32_t> charts(task_.shapes.size());
@@ -59,11 +60,9 @@ class DensitySearch {
     constexpr int kCheap = 5;
     return record_.timed() ? best_.pages() : std::min(best_.pages(), kCheap);
   }
-  [[nodiscard]] bool done() {
-    return record_.poll() || (record_.timed() && Effort::Clock::now() >= record_.at(1));
-  }
+  [[nodiscard]] bool done() { return record_.enough(share_); }
   std::optional<PageFilling> fill(const std::vector<std::uint32_t>& order, int most) {
-    return fill_pages(task_, options_.density, order, most, [this] { return record_.poll(); });
+    return fill_pages(task_, options_.density, order, most, [this] { return done(); });
   }
   void offer() {
     record_.offer(make_packing(task_.frame, task_.wrap, options_.density, total_area(task_.shapes),
@@ -142,6 +141,7 @@ class DensitySearch {
   const PageTask& task_;
   const PackOptions& options_;
   Record& record_;
+  double share_;
   PageFilling best_;
 };
 
@@ -199,7 +199,10 @@ Status fill_at_density(std::span<const ChartShape> shapes, const PackOptions& op
         {shapes, angles, frame, options.wrap, options.coverage, care_for(shapes.size(), false)});
   }
   if (const Status small = check_sizes(tasks, options, record); !small) return small.error();
-  for (const PageTask& task : tasks) DensitySearch(task, options, record).run();
+  for (std::size_t i = 0; i < tasks.size(); ++i) {
+    const double share = static_cast<double>(i + 1) / static_cast<double>(tasks.size());
+    DensitySearch(tasks[i], options, record, share).run();
+  }
   return Done{};
 }
 

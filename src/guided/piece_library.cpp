@@ -1,5 +1,6 @@
 #include "guided/piece_library.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -13,11 +14,15 @@ double total_area(std::span<const ChartShape> shapes) {
 
 PieceLibrary::PieceLibrary(std::span<const ChartShape> shapes, const RasterScale& scale, int angles,
                            int max_side)
-    : shapes_(shapes),
-      scale_(scale),
-      angles_(angles),
-      max_side_(max_side),
-      pieces_(shapes.size()) {}
+    : shapes_(shapes), scale_(scale), angles_(angles), max_side_(max_side), pieces_(shapes.size()) {
+  const double cells_per_unit = std::max(scale.cells_per_unit.x, scale.cells_per_unit.y);
+  for (const ChartShape& shape : shapes) {
+    double radius = 0;
+    for (const Vec2 p : shape.raster.points) radius = std::max(radius, length(p));
+    const double longest = std::ceil(2 * (radius * cells_per_unit + scale.growth)) + 1;
+    reach_.push_back(static_cast<int>(std::min<double>(longest, max_side)));
+  }
+}
 
 const Piece& PieceLibrary::piece(std::size_t chart, int angle) {
   std::unique_ptr<Piece>& slot = pieces_[chart][angle];

@@ -30,6 +30,8 @@ class PieceLibrary {
   [[nodiscard]] std::size_t charts() const { return shapes_.size(); }
   [[nodiscard]] int angles() const { return angles_; }
   [[nodiscard]] const RasterScale& scale() const { return scale_; }
+  /// No piece of the chart is longer, at any angle.
+  [[nodiscard]] int reach(std::size_t chart) const { return reach_[chart]; }
   /// Stays valid for the life of the library.
   const Piece& piece(std::size_t chart, int angle);
 
@@ -38,6 +40,7 @@ class PieceLibrary {
   RasterScale scale_;
   int angles_;
   int max_side_;
+  std::vector<int> reach_;
   std::vector<std::unordered_map<int, std::unique_ptr<Piece>>> pieces_;
 };
 

@@ -30,6 +30,10 @@ Effort Record::effort(double share) {
   return effort;
 }
 
+bool Record::enough(double share) {
+  return poll() || (timed() && Clock::now() >= at(share) && efficiency() > 0);
+}
+
 bool Record::poll() {
   if (!options_.progress || stopped_) return stopped_;
   const std::unique_lock lock(report_mutex_, std::try_to_lock);
@@ -37,7 +41,7 @@ bool Record::poll() {
   if (!lock || now - last_ < std::chrono::milliseconds(50)) return stopped_;
   last_ = now;
   const double passed = std::chrono::duration<double>(now - start_).count();
-  const double fraction = options_.time > 0 ? std::min(passed / options_.time, 1.0) : 0.5;
+  const double fraction = timed() ? std::min(passed / options_.time, 1.0) : 0.5;
   if (!options_.progress({fraction, efficiency()})) stopped_ = true;
   return stopped_;
 }

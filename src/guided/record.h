@@ -32,6 +32,8 @@ class Record {
   [[nodiscard]] bool stopped() const { return stopped_; }
   /// Reports progress now and then. True: stop.
   [[nodiscard]] bool poll();
+  /// Polls. True if someone said stop, or this share of the time has passed and there is a packing.
+  [[nodiscard]] bool enough(double share);
 
  private:
   using Clock = Effort::Clock;

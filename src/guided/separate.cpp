@@ -10,6 +10,7 @@ namespace {
 
 constexpr float kWeightUnit = 8;     ///< field weight of a cell whose pair has weight 1
 constexpr float kLargestPair = 120;  ///< field weight of the dearest pair
+constexpr float kMostWeight = 1e6F;  ///< of a pair; far beyond what the field can tell apart
 constexpr float kDecay = 0.95F;
 
 /// Translations along one axis of the whole domain.
@@ -88,10 +89,7 @@ void Separator::fill_field(std::size_t chart, const Stretch& x, const Stretch& y
   float largest = 1;
   for (std::size_t j = 0; j < count_; ++j) largest = std::max(largest, weight_[pair(chart, j)]);
   const float unit = std::min(kWeightUnit, kLargestPair / largest);
-  const Piece& piece = library_.piece(chart, places_[chart].angle);
-  // No angle makes a piece longer than its diagonal, but for the cells at its ends.
-  const int reach = static_cast<int>(std::hypot(piece.width, piece.height)) + 4;
-  field_.reset(domain_, x, y, reach);
+  field_.reset(domain_, x, y, library_.reach(chart));
   for (std::size_t j = 0; j < count_; ++j) {
     if (j == chart) continue;
     const Place& p = places_[j];
@@ -179,7 +177,8 @@ void Separator::raise_weights() {
   const auto most = static_cast<float>(*std::max_element(overlap_.begin(), overlap_.end()));
   for (std::size_t i = 0; i < weight_.size(); ++i) {
     if (overlap_[i] > 0) {
-      weight_[i] *= 1.2F + 0.8F * static_cast<float>(overlap_[i]) / most;
+      const float raised = weight_[i] * (1.2F + 0.8F * static_cast<float>(overlap_[i]) / most);
+      weight_[i] = std::min(raised, kMostWeight);
     } else {
       weight_[i] = std::max(1.0F, weight_[i] * kDecay);
     }

@@ -81,7 +81,9 @@ class ExtremeSizes : public ::testing::TestWithParam<std::pair<Method, RotationB
     PackOptions options;
     options.method = GetParam().first;
     options.rotation_base = GetParam().second;
-    options.wrap = options.method == Method::modulo ? Wrap::uv : Wrap::none;
+    const bool can_wrap = options.method == Method::modulo || options.method == Method::guided;
+    options.wrap = can_wrap ? Wrap::uv : Wrap::none;
+    options.time = 0;
     options.width = options.height = 256;
     options.grid = 64;
     options.threads = 1;
@@ -131,7 +133,8 @@ TEST_P(ExtremeSizes, WhatCannotFitIsAnError) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Methods, ExtremeSizes,
-                         ::testing::Values(std::pair{Method::modulo, RotationBase::input},
+                         ::testing::Values(std::pair{Method::guided, RotationBase::input},
+                                           std::pair{Method::modulo, RotationBase::input},
                                            std::pair{Method::modulo, RotationBase::box},
                                            std::pair{Method::swg03, RotationBase::input},
                                            std::pair{Method::zsgs04, RotationBase::box},

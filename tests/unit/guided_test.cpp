@@ -312,5 +312,70 @@ TEST(Guided, StopsWithTheBestSoFar) {
   EXPECT_GE(packing->efficiency, seen);
 }
 
+TEST(Guided, IsToldToStopOnce) {
+  PackOptions options = guided_options();
+  options.time = 1000;
+  int asked = 0;
+  options.progress = [&asked](const Progress& progress) {
+    EXPECT_LE(asked, 1) << "once more than it was told to stop";
+    asked += progress.best_efficiency > 0 ? 1 : 0;
+    return asked == 0;
+  };
+  const auto packing = pack(test::mixed_charts(3, 8), options);
+  ASSERT_TRUE(packing) << packing.error().message();
+  EXPECT_TRUE(packing->interrupted);
+}
+
+/// Of a needle, less than a cell of a coarse grid wide, there is nothing to be seen at some angles.
+TEST(Guided, NeedlesArePacked) {
+  std::vector<Chart> charts = test::mixed_charts(2, 6);
+  double side = 0;
+  for (const Chart& chart : charts) side = std::max(side, length(chart.box.size()));
+  for (const double width : {1e-2, 1e-3, 1e-4}) {
+    charts.push_back(test::rectangle(0.7 * side, width * side));
+    charts.push_back(test::rectangle(width * side, 0.4 * side));
+  }
+  // A body with a tail.
+  charts.push_back(*chart_from_loops(std::vector<std::vector<Vec2>>{{{0, 0},
+                                                                     {0.2 * side, 0},
+                                                                     {0.2 * side, 0.001 * side},
+                                                                     {0.8 * side, 0.0012 * side},
+                                                                     {0.2 * side, 0.0014 * side},
+                                                                     {0.2 * side, 0.2 * side},
+                                                                     {0, 0.2 * side}}}));
+  for (const Wrap wrap : {Wrap::uv, Wrap::v, Wrap::none}) {
+    PackOptions options = guided_options();
+    options.wrap = wrap;
+    options.moves = 300;
+    const auto packing = pack(charts, options);
+    ASSERT_TRUE(packing) << packing.error().message();
+    EXPECT_EQ(test::check_packing(charts, *packing, options), "");
+  }
+}
+
+TEST(Guided, AVeryLongChartIsSeparatedToo) {
+  const std::vector<Chart> charts{test::rectangle(40, 1), test::rectangle(3, 1)};
+  for (const Wrap wrap : {Wrap::uv, Wrap::none}) {
+    PackOptions options = guided_options();
+    options.wrap = wrap;
+    options.method = Method::modulo;
+    const double modulo = pack(charts, options)->efficiency;
+    options.method = Method::guided;
+    const auto packing = pack(charts, options);
+    ASSERT_TRUE(packing) << packing.error().message();
+    EXPECT_EQ(test::check_packing(charts, *packing, options), "");
+    EXPECT_GT(packing->efficiency, modulo);
+  }
+}
+
+TEST(Guided, GivesUpOnWhatNoDomainHolds) {
+  const std::vector<Chart> charts{test::rectangle(2000, 1), test::rectangle(3, 1)};
+  PackOptions options = guided_options();
+  options.wrap = Wrap::none;
+  const auto packing = pack(charts, options);
+  ASSERT_TRUE(packing) << packing.error().message();
+  EXPECT_EQ(test::check_packing(charts, *packing, options), "");
+}
+
 }  // namespace
 }  // namespace wrapatlas

@@ -7,6 +7,7 @@
 #include <random>
 #include <vector>
 
+#include "charts/hull.h"
 #include "guided/page_fill.h"
 #include "support/shapes.h"
 #include "support/soup_check.h"
@@ -245,17 +246,54 @@ TEST(Pages, AFillingIsFirstFit) {
   EXPECT_FALSE(fill_pages(task, 100, order, 0, [] { return true; }));
 }
 
+TEST(Pages, AChartLargerThanAPageFillsNone) {
+  std::vector<ChartShape> shapes;
+  for (const double side : {1.0, 0.1}) {
+    const Chart chart = rectangle(side, side);
+    shapes.push_back({make_raster_shape(chart), 0, chart.area});
+  }
+  const std::vector<std::vector<double>> angles(2, {0.0});
+  const auto frame = make_frame(60, 60, 1, paged(1, 0));
+  ASSERT_TRUE(frame);
+  const PageTask task{
+      shapes, angles, *frame, Wrap::none, Coverage::conservative, care_for(shapes.size(), false)};
+  const std::vector<std::uint32_t> order{0, 1};
+  for (const int most : {0, 2, 5}) {
+    EXPECT_TRUE(fill_pages(task, 40, order, most, [] { return false; })) << most;
+    EXPECT_FALSE(fill_pages(task, 62, order, most, [] { return false; })) << most;
+  }
+}
+
 /// Some of these are first fit with a page hardly filled, which is then emptied.
 TEST(Pages, EmptyingAPageLeavesASoundPacking) {
   const auto charts = small_charts(9, 60);
-  int before = 1;
+  std::vector<ChartShape> shapes;
+  std::vector<std::vector<double>> angles;
+  std::vector<std::uint32_t> order;
+  for (const Chart& chart : charts) {
+    const double base = -smallest_box_direction(convex_hull(chart.points));
+    shapes.push_back({make_raster_shape(chart), base, chart.area});
+    angles.push_back(best_fit_angles(base, 16));
+    order.push_back(static_cast<std::uint32_t>(order.size()));
+  }
+  order = order_by_area(shapes, std::move(order), 0);
+  int before = 1, saved = 0;
   for (int step = 0; step < 70; ++step) {
     const PackOptions options = paged(0, 80 * std::pow(1.01, step));
     const Packing packing = packed(charts, options);
     expect_sound(charts, packing, options);
     EXPECT_LE(packing.pages, before + 1);
     before = packing.pages;
+    const auto frame = make_frame(options.width, options.height, 1, options);
+    ASSERT_TRUE(frame);
+    const PageTask task{shapes,       angles,           *frame,
+                        options.wrap, options.coverage, care_for(shapes.size(), false)};
+    const auto filling = fill_pages(task, options.density, order, 0, [] { return false; });
+    ASSERT_TRUE(filling);
+    EXPECT_LE(packing.pages, filling->pages());
+    saved += filling->pages() - packing.pages;
   }
+  EXPECT_GT(saved, 0);
 }
 
 TEST(Pages, RoundingIsThatOfFloats) {

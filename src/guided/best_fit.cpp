@@ -17,17 +17,6 @@ constexpr std::size_t kSettled = 4;     ///< candidates tried on the frame's gri
 
 int halved(int cells, int times) { return (cells + (1 << times) - 1) >> times; }
 
-Domain domain_of(const Frame& frame, Wrap wrap) {
-  return {frame.width, frame.height, wraps_u(wrap), wraps_v(wrap)};
-}
-
-/// Where the centre of a shape's box lies in a raster of it.
-Vec2 centre_in(const Piece& piece, const RasterShape& shape, const RasterScale& scale) {
-  const double c = std::cos(piece.angle), s = std::sin(piece.angle);
-  return {(c * shape.centre.x - s * shape.centre.y) * scale.cells_per_unit.x + piece.offset.x,
-          (s * shape.centre.x + c * shape.centre.y) * scale.cells_per_unit.y + piece.offset.y};
-}
-
 /// Takes the cells of the board that cells [begin, end) of row y of the frame's grid lie in.
 void take_halved(Occupancy& board, int halvings, const Domain& fine, int y, int begin, int end) {
   y %= fine.height;
@@ -53,10 +42,9 @@ BestFitPage::BestFitPage(const Frame& frame, Wrap wrap, Coverage coverage, doubl
 
 RasterScale BestFitPage::raster_scale(int halvings) const {
   const double cells = std::exp2(-halvings);
-  RasterScale scale;
-  scale.cells_per_unit = {scale_ / frame_.cell.x * cells, scale_ / frame_.cell.y * cells};
-  scale.growth = frame_.growth * cells;
-  scale.coverage = coverage_;
+  RasterScale scale = raster_scale_on(frame_, scale_, coverage_);
+  scale.cells_per_unit = cells * scale.cells_per_unit;
+  scale.growth *= cells;
   return scale;
 }
 
@@ -93,7 +81,7 @@ void BestFitPage::seek(const RasterShape& shape, std::span<const double> angles,
   const Domain& domain = board.domain();
   const RasterScale scale = raster_scale(halvings_);
   const double fine = std::exp2(halvings_);
-  const int max_side = 4 * std::max(domain.width, domain.height);
+  const int max_side = kLongestPiece * std::max(domain.width, domain.height);
   int first_free = domain.height;
   // Of the smallest charts there are very many, and angles say little of them.
   const std::size_t step = !care_.all_angles && halvings_ == 0 && domain.height > kFewRows ? 2 : 1;
@@ -125,9 +113,8 @@ void BestFitPage::seek(const RasterShape& shape, std::span<const double> angles,
       best.contact = touching;
       best_shift = shift;
     }
-    const Vec2 centre = centre_in(piece, shape, scale);
     best.angle = angle;
-    best.at = {(best_shift.x + centre.x) * fine, (best_shift.y + centre.y) * fine};
+    best.at = {(best_shift.x + piece.centre.x) * fine, (best_shift.y + piece.centre.y) * fine};
     candidates_.push_back(best);
   }
   if (domain.height > kFewRows && !everywhere) first_row_ = std::min(first_free, domain.height - 1);
@@ -140,14 +127,13 @@ std::optional<BestFitPage::Spot> BestFitPage::settle(const RasterShape& shape,
                                                      const Candidate& candidate) {
   const Domain& domain = fine_.domain();
   const RasterScale scale = raster_scale(0);
-  const ChartRaster raster =
-      rasterize(shape, scale, candidate.angle, 4 * std::max(domain.width, domain.height));
+  const ChartRaster raster = rasterize(shape, scale, candidate.angle,
+                                       kLongestPiece * std::max(domain.width, domain.height));
   if (raster.width == 0) return {};
   const Piece piece = make_bare_piece(raster);
   if (!admits(domain, piece)) return {};
-  const Vec2 centre = centre_in(piece, shape, scale);
-  const int x = static_cast<int>(std::lround(candidate.at.x - centre.x));
-  const int y = static_cast<int>(std::lround(candidate.at.y - centre.y));
+  const int x = static_cast<int>(std::lround(candidate.at.x - piece.centre.x));
+  const int y = static_cast<int>(std::lround(candidate.at.y - piece.centre.y));
   const int window = halvings_ == 0 ? 0 : (1 << halvings_) + 1;
   const Probes probes = probes_of(piece, *raster.unturned, fine_);
   const Ring ring = ring_of(*raster.unturned);
@@ -225,7 +211,7 @@ std::optional<BestFitPage::Spot> BestFitPage::place_alone(const RasterShape& sha
   const RasterScale scale = raster_scale(0);
   for (const double angle : angles) {
     const ChartRaster raster =
-        rasterize(shape, scale, angle, 4 * std::max(domain.width, domain.height));
+        rasterize(shape, scale, angle, kLongestPiece * std::max(domain.width, domain.height));
     if (raster.width == 0) continue;
     const Piece piece = make_bare_piece(raster);
     if (!admits(domain, piece)) continue;

@@ -66,11 +66,9 @@ Groups::Covered Groups::covered(std::uint32_t chart, const Pose& pose) const {
   RasterScale scale;
   scale.cells_per_unit = {1 / cell_, 1 / cell_};
   scale.coverage = Coverage::center;
-  const RasterShape& shape = shapes_[chart].raster;
-  const ChartRaster raster = rasterize(shape, scale, pose.angle);
+  const ChartRaster raster = rasterize(shapes_[chart].raster, scale, pose.angle);
   if (raster.width == 0) return {};
-  const Vec2 centre = (1 / cell_) * pose.turned(shape.centre) + raster.offset;
-  const Piece piece = make_piece(raster, centre);
+  const Piece piece = make_piece(raster);
   const auto at = [](double shift, double in_piece, int size) {
     return std::clamp(kPlane / 2 + static_cast<int>(std::lround(shift - in_piece)), 0,
                       kPlane - size);
@@ -80,8 +78,8 @@ Groups::Covered Groups::covered(std::uint32_t chart, const Pose& pose) const {
   result.pose = pose;
   result.reach = length(Vec2{double(piece.width), double(piece.height)}) / 2;
   result.cover.set({kPlane, kPlane, false, false}, piece,
-                   at(pose.shift.x / cell_, centre.x, piece.width),
-                   at(pose.shift.y / cell_, centre.y, piece.height));
+                   at(pose.shift.x / cell_, piece.centre.x, piece.width),
+                   at(pose.shift.y / cell_, piece.centre.y, piece.height));
   return result;
 }
 

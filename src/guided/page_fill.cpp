@@ -123,18 +123,12 @@ namespace {
 
 bool fits_alone(const PageTask& task, std::size_t chart, double scale) {
   const Frame& frame = task.frame;
-  const Domain domain{frame.width, frame.height, wraps_u(task.wrap), wraps_v(task.wrap)};
-  const RasterScale raster_scale{
-      {scale / frame.cell.x, scale / frame.cell.y}, frame.growth, task.coverage};
+  const Domain domain = domain_of(frame, task.wrap);
+  const RasterScale raster_scale = raster_scale_on(frame, scale, task.coverage);
   for (const double angle : task.angles[chart]) {
     const ChartRaster raster = rasterize(task.shapes[chart].raster, raster_scale, angle,
-                                         4 * std::max(domain.width, domain.height));
-    if (raster.width == 0) continue;
-    Piece piece;
-    piece.width = raster.width;
-    piece.height = raster.height;
-    piece.runs = runs_of(*raster.unturned);
-    if (admits(domain, piece)) return true;
+                                         kLongestPiece * std::max(domain.width, domain.height));
+    if (raster.width > 0 && admits(domain, make_bare_piece(raster))) return true;
   }
   return false;
 }

@@ -36,6 +36,7 @@ Piece piece_of(const ChartRaster& raster) {
   piece.cells = raster.cells;
   piece.angle = raster.angle;
   piece.offset = raster.offset;
+  piece.centre = raster.centre;
   if (raster.width > 0) piece.runs = runs_of(*raster.unturned);  // rasterize() turns nothing
   return piece;
 }
@@ -104,9 +105,8 @@ Piece make_bare_piece(const ChartRaster& raster) {
   return piece;
 }
 
-Piece make_piece(const ChartRaster& raster, Vec2 centre) {
+Piece make_piece(const ChartRaster& raster) {
   Piece piece = piece_of(raster);
-  piece.centre = centre;
   if (raster.width == 0) return piece;
   const BitLanes& rows = *raster.unturned;
   std::vector<std::size_t> row_begin(static_cast<std::size_t>(rows.lanes) + 1, piece.runs.size());
@@ -137,6 +137,10 @@ bool claim_span(std::uint64_t* lane, int begin, int end) {
 }
 
 }  // namespace
+
+Domain domain_of(const Frame& frame, Wrap wrap) {
+  return {frame.width, frame.height, wraps_u(wrap), wraps_v(wrap)};
+}
 
 bool admits(const Domain& domain, const Piece& piece) {
   if (piece.width == 0) return false;

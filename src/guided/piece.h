@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "pack/frame.h"
 #include "raster/bits.h"
 #include "raster/chart_raster.h"
 #include "wrapatlas/geometry.h"
@@ -50,10 +51,15 @@ std::vector<PieceRun> runs_of(const BitLanes& rows);
 /// more than are worth asking.
 std::vector<PieceRun> core_of(const BitLanes& rows);
 
-/// The runs of a raster. `centre` is the chart's, in cells from the raster's cell (0,0).
-Piece make_piece(const ChartRaster& raster, Vec2 centre);
+Domain domain_of(const Frame& frame, Wrap wrap);
 
-/// Without centre, spread and core; runs that most often are in the way come first.
+/// Times the longer side of the domain: longer pieces are not made.
+inline constexpr int kLongestPiece = 4;
+
+/// The runs of a raster.
+Piece make_piece(const ChartRaster& raster);
+
+/// Without spread and core; runs that most often are in the way come first.
 Piece make_bare_piece(const ChartRaster& raster);
 
 /// Can the piece lie in the domain at all: inside the sides that do not wrap, and not over itself

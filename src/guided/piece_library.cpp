@@ -30,11 +30,7 @@ const Piece& PieceLibrary::piece(std::size_t chart, int angle) {
     const ChartShape& shape = shapes_[chart];
     const double radians = shape.base_angle + 2 * std::numbers::pi * angle / angles_;
     const ChartRaster raster = rasterize(shape.raster, scale_, radians, max_side_);
-    const Vec2 centre = shape.raster.centre, cells = scale_.cells_per_unit;
-    const double c = std::cos(radians), s = std::sin(radians);
-    slot = std::make_unique<Piece>(
-        make_piece(raster, {(c * centre.x - s * centre.y) * cells.x + raster.offset.x,
-                            (s * centre.x + c * centre.y) * cells.y + raster.offset.y}));
+    slot = std::make_unique<Piece>(make_piece(raster));
   }
   return *slot;
 }

@@ -12,7 +12,7 @@ constexpr double kSmallest = 0.5;  ///< of the first scale: below it, the layout
 std::optional<Packing> refine(std::span<const ChartShape> shapes, const Frame& frame,
                               const PackOptions& options, const Layout& start,
                               const RefineOptions& how, Effort& effort, Random& random) {
-  const Domain domain{frame.width, frame.height, wraps_u(options.wrap), wraps_v(options.wrap)};
+  const Domain domain = domain_of(frame, options.wrap);
   SeparateOptions separate;
   separate.window = how.window;
   separate.stall_rounds = how.stall_rounds;
@@ -23,11 +23,8 @@ std::optional<Packing> refine(std::span<const ChartShape> shapes, const Frame& f
   Layout layout = start, good;
   double step = how.first_step;
   while (!effort.spent()) {
-    RasterScale scale;
-    scale.cells_per_unit = {layout.scale / frame.cell.x, layout.scale / frame.cell.y};
-    scale.growth = frame.growth;
-    scale.coverage = options.coverage;
-    PieceLibrary library(shapes, scale, kAngleSteps, 4 * std::max(frame.width, frame.height));
+    PieceLibrary library(shapes, raster_scale_on(frame, layout.scale, options.coverage),
+                         kAngleSteps, kLongestPiece * std::max(frame.width, frame.height));
     std::vector<Place> places = to_places(layout, library, domain);
     bool fits = true;
     for (std::size_t i = 0; i < places.size(); ++i) {

@@ -119,6 +119,10 @@ Result<Frame> make_frame(int texture_width, int texture_height, double cell,
   return frame;
 }
 
+RasterScale raster_scale_on(const Frame& frame, double scale, Coverage coverage) {
+  return {{scale / frame.cell.x, scale / frame.cell.y}, frame.growth, coverage};
+}
+
 Placement place_on(const Frame& frame, double angle, Vec2 offset, int x, int y) {
   return {angle,
           {(offset.x + x) * frame.cell.x + frame.origin.x,

@@ -1,6 +1,7 @@
 // The search grid and how it lies on the texture.
 #pragma once
 
+#include "raster/chart_raster.h"
 #include "wrapatlas/geometry.h"
 #include "wrapatlas/pack.h"
 #include "wrapatlas/result.h"
@@ -24,6 +25,9 @@ struct Frame {
 /// and the block size allow. Errors: usage.
 Result<Frame> make_frame(int texture_width, int texture_height, double cell,
                          const PackOptions& options);
+
+/// How the cells of a frame relate to a chart's units. `scale`: texels per unit.
+RasterScale raster_scale_on(const Frame& frame, double scale, Coverage coverage);
 
 /// A chart whose raster has its cell (0,0) on cell (x, y) of the grid. `offset`: ChartRaster's.
 Placement place_on(const Frame& frame, double angle, Vec2 offset, int x, int y);

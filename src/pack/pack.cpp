@@ -219,11 +219,8 @@ class Packer {
 
  private:
   [[nodiscard]] std::shared_ptr<ScaleRasters> rasters_at(const Frame& frame, double factor) const {
-    RasterScale raster_scale;
-    raster_scale.cells_per_unit = {scale(factor) / frame.cell.x, scale(factor) / frame.cell.y};
-    raster_scale.growth = frame.growth;
-    raster_scale.coverage = options_.coverage;
-    return cache_.at(raster_scale, kLongestInDomains * std::max(frame.width, frame.height));
+    return cache_.at(raster_scale_on(frame, scale(factor), options_.coverage),
+                     kLongestInDomains * std::max(frame.width, frame.height));
   }
 
   /// Each grown chart covers at least its area and a disc of half the padding.

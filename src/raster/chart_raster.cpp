@@ -141,6 +141,7 @@ ChartRaster rasterize(const RasterShape& shape, const RasterScale& scale, double
     raster.width = rows.length;
     raster.height = rows.lanes;
   }
+  raster.centre = centre + raster.offset;
   raster.rows = lane_silhouette(rows, raster.cells);
   raster.columns = cross_silhouette(rows, raster.cells);
   raster.unturned = std::make_shared<const BitLanes>(std::move(rows));

@@ -69,6 +69,7 @@ struct ChartRaster {
   int width = 0, height = 0;  ///< cells, tight
   std::int64_t cells = 0;     ///< covered
   double angle = 0;           ///< radians
+  Vec2 centre;                ///< where RasterShape::centre lies, in cells from cell (0,0)
   Vec2 offset;               ///< cell-space position of chart point p: M p + offset, for cell (0,0)
   Silhouette columns, rows;  ///< the same cells seen along y and along x
   /// The cells, a lane per row, before `turns` quarter turns: many rotations of a chart are looked

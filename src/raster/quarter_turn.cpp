@@ -78,6 +78,7 @@ ChartRaster quarter_turned(const ChartRaster& raster) {
   turned.height = raster.width;
   turned.cells = raster.cells;
   turned.angle = raster.angle;
+  turned.centre = {raster.height - raster.centre.y, raster.centre.x};
   turned.offset = {raster.height - raster.offset.y, raster.offset.x};
   if (raster.width == 0) return turned;
   turned.columns = lanes_reversed(raster.rows);

@@ -55,7 +55,8 @@ TEST_P(EveryMethod, KeepsItsPromisesOnRandomCharts) {
 TEST_P(EveryMethod, SameBitsForAnyNumberOfThreads) {
   const std::vector<Chart> charts = test::mixed_charts(20, 12);
   PackOptions options = options_for(GetParam().method, GetParam().wrap);
-  options.aspect = Aspect::search;
+  // guided goes through the shapes one by one: the thread sanitizer takes minutes for all 31.
+  options.aspect = options.method == Method::guided ? Aspect::pow2 : Aspect::search;
   options.grid = 64;
   const auto one = pack(charts, options);
   options.threads = 3;

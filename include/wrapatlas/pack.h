@@ -137,8 +137,9 @@ Result<Packing> pack(std::span<const Chart> charts, const PackOptions& options);
 /// where charts touch or cross already; at most 1 but for rounding. Exact: the first contact of the
 /// outlines (and of triangles against the grain), on no grid; only a chart that comes to be 8 pages
 /// long ends it early. `charts` as they were packed, in their order. Source: ours, see
-/// src/pack/unpadded.cpp. O(n log n + E log E) for n charts with E outline edges, each compared
-/// with those it comes near; more only for outlines like combs, O(E^2) at the worst.
+/// src/pack/unpadded.cpp. Of n charts those that overlap as seen along one axis are compared: of
+/// like size about n^1.5 pairs, n^2 at the worst; E edges of two that come near take O(E log E),
+/// for outlines like combs O(E^2).
 double unpadded_efficiency(std::span<const Chart> charts, const Packing& packing);
 
 }  // namespace wrapatlas

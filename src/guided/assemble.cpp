@@ -71,7 +71,7 @@ std::vector<Vec2> points_of(const Groups& groups, std::uint32_t group,
                             std::span<const ChartShape> shapes) {
   std::vector<Vec2> points;
   for (const std::uint32_t chart : groups.members(group)) {
-    const PoseMap to_group(groups.pose(chart));
+    const Similarity to_group = groups.pose(chart).map();
     for (const Vec2 p : shapes[chart].raster.points) points.push_back(to_group.apply(p));
   }
   return points;
@@ -85,7 +85,7 @@ Turn turn_to_box(const std::vector<Vec2>& points, Vec2 sides) {
   for (int quarter = 0; quarter < 2; ++quarter) {
     const double angle = quarter * std::numbers::pi / 2 - direction;
     Box2 box;
-    const PoseMap turn({angle, {}});
+    const Similarity turn = Similarity::from(1, angle, {});
     for (const Vec2 p : points) box.add(turn.apply(p));
     const double larger = std::max(box.size().x / sides.x, box.size().y / sides.y);
     if (1 / larger > std::max(best.strength, kLike)) best = {0, angle, 1 / larger, {}};

@@ -81,7 +81,7 @@ void BestFitPage::seek(const RasterShape& shape, std::span<const double> angles,
   const Domain& domain = board.domain();
   const RasterScale scale = raster_scale(halvings_);
   const double fine = std::exp2(halvings_);
-  const int max_side = kLongestPiece * std::max(domain.width, domain.height);
+  const int max_side = kLongestInDomains * std::max(domain.width, domain.height);
   int first_free = domain.height;
   // Of the smallest charts there are very many, and angles say little of them.
   const std::size_t step = !care_.all_angles && halvings_ == 0 && domain.height > kFewRows ? 2 : 1;
@@ -128,7 +128,7 @@ std::optional<BestFitPage::Spot> BestFitPage::settle(const RasterShape& shape,
   const Domain& domain = fine_.domain();
   const RasterScale scale = raster_scale(0);
   const ChartRaster raster = rasterize(shape, scale, candidate.angle,
-                                       kLongestPiece * std::max(domain.width, domain.height));
+                                       kLongestInDomains * std::max(domain.width, domain.height));
   if (raster.width == 0) return {};
   const Piece piece = make_bare_piece(raster);
   if (!admits(domain, piece)) return {};
@@ -211,7 +211,7 @@ std::optional<BestFitPage::Spot> BestFitPage::place_alone(const RasterShape& sha
   const RasterScale scale = raster_scale(0);
   for (const double angle : angles) {
     const ChartRaster raster =
-        rasterize(shape, scale, angle, kLongestPiece * std::max(domain.width, domain.height));
+        rasterize(shape, scale, angle, kLongestInDomains * std::max(domain.width, domain.height));
     if (raster.width == 0) continue;
     const Piece piece = make_bare_piece(raster);
     if (!admits(domain, piece)) continue;

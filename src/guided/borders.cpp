@@ -168,7 +168,7 @@ BorderMatch fitted(const Border& a, const Border& b, Run run, double step) {
   double square = 0;
   for (int fit = 0; fit < kFits; ++fit) {
     if (fit == kFits / 2) {  // to both ends
-      const PoseMap to_a(pose);
+      const Similarity to_a = pose.map();
       const auto touches = [&](int t) {
         const Vec2 q = to_a.apply(b.point(run.b - t));
         return length(nearest_on(a, q, run.a + t).point - q) < touching;
@@ -179,7 +179,7 @@ BorderMatch fitted(const Border& a, const Border& b, Run run, double step) {
       while (run.count < most && touches(run.count)) ++run.count;
       while (run.count < most && touches(-1)) --run.a, ++run.b, ++run.count;
     }
-    const PoseMap to_a(pose);
+    const Similarity to_a = pose.map();
     MotionFit motion(to_a.apply(b.point(run.b - run.count / 2)));
     square = 0;
     for (int t = 0; t < run.count; ++t) {

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "charts/hull.h"
 #include "guided/assemble.h"
 #include "guided/best_fit_search.h"
 #include "guided/lines.h"
@@ -30,15 +29,6 @@ double fine_cell(const PackOptions& options, std::size_t charts) {
   const int longest = std::max(options.width, options.height);
   if (options.grid > 0) return double(longest) / options.grid;
   return std::max(1.0, double(longest) / finest);
-}
-
-std::vector<ChartShape> make_shapes(std::span<const Chart> charts) {
-  std::vector<ChartShape> shapes;
-  for (const Chart& chart : charts) {
-    shapes.push_back(
-        {make_raster_shape(chart), -smallest_box_direction(convex_hull(chart.points)), chart.area});
-  }
-  return shapes;
 }
 
 /// Charts may be the pieces of one sheet: if all of them fit together they are packed like that.

@@ -221,16 +221,16 @@ void Joiner::add_contact(std::size_t m, std::uint32_t chart, Vec2 shift, MotionF
   const bool is_a = chart_a(m) == chart;
   const Border& own = borders_[is_a ? match.a : match.b];
   const Border& other = borders_[is_a ? match.b : match.a];
-  const PoseMap here(groups_.pose(chart));
+  const Similarity here = groups_.pose(chart).map();
   Pose there = groups_.pose(is_a ? chart_b(m) : chart_a(m));
   there.shift = is_a ? there.shift + shift : there.shift - shift;
-  const PoseMap to_other(there.inverse()), from_other(there);
+  const Similarity to_other = there.inverse().map(), back = there.map(), turn = there.turn();
   for (int t = 0; t < match.count; ++t) {
     const int i = is_a ? match.begin_a + t : match.begin_b - t;
     const int j = is_a ? match.begin_b - t : match.begin_a + t;
     const Vec2 p = here.apply(own.point(i));
     const OnBorder on = nearest_on(other, to_other.apply(p), j);
-    fit.add(p, from_other.apply(on.point), from_other.turned(on.along));
+    fit.add(p, back.apply(on.point), turn.apply(on.along));
   }
 }
 

@@ -127,7 +127,7 @@ bool fits_alone(const PageTask& task, std::size_t chart, double scale) {
   const RasterScale raster_scale = raster_scale_on(frame, scale, task.coverage);
   for (const double angle : task.angles[chart]) {
     const ChartRaster raster = rasterize(task.shapes[chart].raster, raster_scale, angle,
-                                         kLongestPiece * std::max(domain.width, domain.height));
+                                         kLongestInDomains * std::max(domain.width, domain.height));
     if (raster.width > 0 && admits(domain, make_bare_piece(raster))) return true;
   }
   return false;

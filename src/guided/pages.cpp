@@ -147,6 +147,7 @@ class DensitySearch {
 
 /// Is each chart small enough for a page of its own, on one of the frames at least?
 Status check_sizes(std::span<const PageTask> tasks, const PackOptions& options, Record& record) {
+  constexpr double kRoundedDown = 0.9995;  // to four digits it is not more
   std::optional<TooLarge> least;
   for (const PageTask& task : tasks) {
     const auto found = find_too_large(task, options.density, [&record] { return record.poll(); });
@@ -159,7 +160,7 @@ Status check_sizes(std::span<const PageTask> tasks, const PackOptions& options, 
                              options.width, options.height),
                  least->largest_scale > 0
                      ? fmt::format("{:.4g} times the density would fit, or raise --resolution",
-                                   std::floor(1e4 * least->largest_scale / options.density) / 1e4)
+                                   kRoundedDown * least->largest_scale / options.density)
                      : "raise --resolution, or lower --padding and --margin");
   error.density_that_fits = least->largest_scale;
   return error;

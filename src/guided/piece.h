@@ -53,9 +53,6 @@ std::vector<PieceRun> core_of(const BitLanes& rows);
 
 Domain domain_of(const Frame& frame, Wrap wrap);
 
-/// Times the longer side of the domain: longer pieces are not made.
-inline constexpr int kLongestPiece = 4;
-
 /// The runs of a raster.
 Piece make_piece(const ChartRaster& raster);
 

@@ -4,7 +4,18 @@
 #include <cmath>
 #include <numbers>
 
+#include "charts/hull.h"
+
 namespace wrapatlas {
+
+std::vector<ChartShape> make_shapes(std::span<const Chart> charts) {
+  std::vector<ChartShape> shapes;
+  for (const Chart& chart : charts) {
+    shapes.push_back(
+        {make_raster_shape(chart), -smallest_box_direction(convex_hull(chart.points)), chart.area});
+  }
+  return shapes;
+}
 
 double total_area(std::span<const ChartShape> shapes) {
   double area = 0;

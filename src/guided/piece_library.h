@@ -9,6 +9,7 @@
 
 #include "guided/piece.h"
 #include "raster/chart_raster.h"
+#include "wrapatlas/charts.h"
 
 namespace wrapatlas {
 
@@ -18,6 +19,9 @@ struct ChartShape {
   double base_angle = 0;  ///< radians; angles are counted from here
   double area = 0;        ///< input units^2
 };
+
+/// Angles are counted from the smallest box.
+std::vector<ChartShape> make_shapes(std::span<const Chart> charts);
 
 double total_area(std::span<const ChartShape> shapes);
 

@@ -12,11 +12,11 @@ struct Pose {
   double angle = 0;
   Vec2 shift;
 
-  [[nodiscard]] Vec2 turned(Vec2 p) const {
-    const double c = std::cos(angle), s = std::sin(angle);
-    return {c * p.x - s * p.y, s * p.x + c * p.y};
-  }
-  [[nodiscard]] Vec2 apply(Vec2 p) const { return turned(p) + shift; }
+  /// What it does to points, and to directions: for many of them, as it takes sine and cosine.
+  [[nodiscard]] Similarity map() const { return Similarity::from(1, angle, shift); }
+  [[nodiscard]] Similarity turn() const { return Similarity::from(1, angle, {}); }
+  [[nodiscard]] Vec2 turned(Vec2 p) const { return turn().apply(p); }
+  [[nodiscard]] Vec2 apply(Vec2 p) const { return map().apply(p); }
   /// First `inner`, then this.
   [[nodiscard]] Pose after(const Pose& inner) const {
     return {angle + inner.angle, apply(inner.shift)};
@@ -25,22 +25,6 @@ struct Pose {
     const Pose back{-angle, {}};
     return {-angle, -1.0 * back.turned(shift)};
   }
-};
-
-/// What a pose does to points, for many of them.
-class PoseMap {
- public:
-  explicit PoseMap(const Pose& pose)
-      : cosine_(std::cos(pose.angle)), sine_(std::sin(pose.angle)), shift_(pose.shift) {}
-
-  [[nodiscard]] Vec2 turned(Vec2 p) const {
-    return {cosine_ * p.x - sine_ * p.y, sine_ * p.x + cosine_ * p.y};
-  }
-  [[nodiscard]] Vec2 apply(Vec2 p) const { return turned(p) + shift_; }
-
- private:
-  double cosine_, sine_;
-  Vec2 shift_;
 };
 
 /// Least squares for the small motion that takes points to lines: along a line they move almost

@@ -24,7 +24,7 @@ std::optional<Packing> refine(std::span<const ChartShape> shapes, const Frame& f
   double step = how.first_step;
   while (!effort.spent()) {
     PieceLibrary library(shapes, raster_scale_on(frame, layout.scale, options.coverage),
-                         kAngleSteps, kLongestPiece * std::max(frame.width, frame.height));
+                         kAngleSteps, kLongestInDomains * std::max(frame.width, frame.height));
     std::vector<Place> places = to_places(layout, library, domain);
     bool fits = true;
     for (std::size_t i = 0; i < places.size(); ++i) {

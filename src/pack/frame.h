@@ -26,6 +26,9 @@ struct Frame {
 Result<Frame> make_frame(int texture_width, int texture_height, double cell,
                          const PackOptions& options);
 
+/// A chart may wind around the torus, but not for ever: at most so many times the longer side.
+inline constexpr int kLongestInDomains = 4;
+
 /// How the cells of a frame relate to a chart's units. `scale`: texels per unit.
 RasterScale raster_scale_on(const Frame& frame, double scale, Coverage coverage);
 

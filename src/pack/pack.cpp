@@ -250,9 +250,6 @@ class Packer {
     return place_function(options_.method)(task, placements);
   }
 
-  /// A chart may wind around the torus, but not for ever.
-  static constexpr int kLongestInDomains = 4;
-
   const PackOptions& options_;
   double full_scale_;
   RasterCache& cache_;

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <random>
 #include <vector>
 
-#include "charts/hull.h"
 #include "guided/page_fill.h"
 #include "support/shapes.h"
 #include "support/soup_check.h"
@@ -221,15 +221,13 @@ TEST(PagesParallel, ThreadsDoNotChangeTheResult) {
 
 TEST(Pages, AFillingIsFirstFit) {
   // Four to a page: they go onto pages in their order, and the small one into the first gap.
-  std::vector<ChartShape> shapes;
-  std::vector<std::vector<double>> angles;
-  std::vector<std::uint32_t> order;
+  std::vector<Chart> charts;
   for (const double side : {0.4, 0.4, 0.4, 0.4, 0.4, 0.4, 0.08}) {
-    const Chart chart = rectangle(side, side);
-    shapes.push_back({make_raster_shape(chart), 0, chart.area});
-    angles.push_back({0.0});
-    order.push_back(static_cast<std::uint32_t>(order.size()));
+    charts.push_back(rectangle(side, side));
   }
+  const std::vector<ChartShape> shapes = make_shapes(charts);
+  const std::vector<std::vector<double>> angles(charts.size(), {0.0});
+  const std::vector<std::uint32_t> order{0, 1, 2, 3, 4, 5, 6};
   const auto frame = make_frame(100, 100, 1, paged(1, 0));
   ASSERT_TRUE(frame);
   const PageTask task{
@@ -247,11 +245,8 @@ TEST(Pages, AFillingIsFirstFit) {
 }
 
 TEST(Pages, AChartLargerThanAPageFillsNone) {
-  std::vector<ChartShape> shapes;
-  for (const double side : {1.0, 0.1}) {
-    const Chart chart = rectangle(side, side);
-    shapes.push_back({make_raster_shape(chart), 0, chart.area});
-  }
+  const std::vector<ChartShape> shapes =
+      make_shapes(std::vector<Chart>{rectangle(1, 1), rectangle(0.1, 0.1)});
   const std::vector<std::vector<double>> angles(2, {0.0});
   const auto frame = make_frame(60, 60, 1, paged(1, 0));
   ASSERT_TRUE(frame);
@@ -267,15 +262,11 @@ TEST(Pages, AChartLargerThanAPageFillsNone) {
 /// Some of these are first fit with a page hardly filled, which is then emptied.
 TEST(Pages, EmptyingAPageLeavesASoundPacking) {
   const auto charts = small_charts(9, 60);
-  std::vector<ChartShape> shapes;
+  const std::vector<ChartShape> shapes = make_shapes(charts);
   std::vector<std::vector<double>> angles;
-  std::vector<std::uint32_t> order;
-  for (const Chart& chart : charts) {
-    const double base = -smallest_box_direction(convex_hull(chart.points));
-    shapes.push_back({make_raster_shape(chart), base, chart.area});
-    angles.push_back(best_fit_angles(base, 16));
-    order.push_back(static_cast<std::uint32_t>(order.size()));
-  }
+  for (const ChartShape& shape : shapes) angles.push_back(best_fit_angles(shape.base_angle, 16));
+  std::vector<std::uint32_t> order(charts.size());
+  std::iota(order.begin(), order.end(), 0U);
   order = order_by_area(shapes, std::move(order), 0);
   int before = 1, saved = 0;
   for (int step = 0; step < 70; ++step) {

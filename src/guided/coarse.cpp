@@ -9,6 +9,7 @@ namespace {
 constexpr double kAimed = 0.85;  ///< efficiency at which the domain has CoarseOptions::side cells
 constexpr double kStart = 0.55;  ///< efficiency of the first domain
 constexpr int kLongest = 16;     ///< times CoarseOptions::side: charts and domains up to that
+constexpr double kLeastChance = 1e-3;
 constexpr int kFirstStride = 3;  ///< steps at a time until the first domain that was not filled
 
 std::vector<Place> scaled(const std::vector<Place>& places, PieceLibrary& library,
@@ -36,6 +37,12 @@ CoarseSearch::CoarseSearch(std::span<const ChartShape> shapes, Vec2 lengths, boo
   scale.coverage = Coverage::center;
   library_ =
       std::make_unique<PieceLibrary>(shapes_, scale, options_.angles, kLongest * options_.side);
+  double sum = 0;
+  for (const ChartShape& shape : shapes_) {
+    // Of the root of the root of the area: large charts matter more, tiny ones not at all.
+    sum += std::sqrt(std::sqrt(shape.area / area_)) + kLeastChance;
+    chances_.push_back(sum);
+  }
   start_step_ = static_cast<int>(std::lround(2 * options_.side * std::sqrt(kAimed / kStart)));
   begin_anew();
 }
@@ -45,6 +52,7 @@ void CoarseSearch::begin_anew() {
   step_ = step_of_places_ = start_step_;
   filled_step_ = failures_ = 0;
   stride_ = kFirstStride;
+  near_.clear();
   const Domain domain = domain_at(step_);
   places_.clear();
   for (std::size_t i = 0; i < shapes_.size(); ++i) {
@@ -92,6 +100,7 @@ void CoarseSearch::adopt(const CoarseSearch& other) {
   step_ = best_step_ - 1;
   stride_ = 1;
   failures_ = 0;
+  near_.clear();
 }
 
 /// Turns charts that cannot lie in the domain at their angle.
@@ -110,26 +119,50 @@ bool CoarseSearch::fit_angles(const Domain& domain, std::vector<Place>& places) 
   return true;
 }
 
+void CoarseSearch::keep_near(std::int64_t overlap, const std::vector<Place>& places) {
+  const auto at =
+      std::upper_bound(near_.begin(), near_.end(), overlap,
+                       [](std::int64_t cells, const Near& near) { return cells < near.overlap; });
+  near_.insert(at, {overlap, places});
+}
+
+/// After a domain was not filled: mostly to one of the layouts that came close to filling it,
+/// sometimes to the last domain that was filled.
+void CoarseSearch::retreat() {
+  const double u = random_.unit();
+  const auto chosen = static_cast<std::size_t>(u * u * static_cast<double>(near_.size() + 1));
+  const bool close = chosen < near_.size();
+  places_ = close ? near_[chosen].places : filled_places_;
+  step_of_places_ = close ? step_ : filled_step_;
+}
+
+/// The larger, the likelier.
+std::size_t CoarseSearch::any_chart() {
+  const double at = random_.unit() * chances_.back();
+  const auto found = std::upper_bound(chances_.begin(), chances_.end() - 1, at);
+  return static_cast<std::size_t>(found - chances_.begin());
+}
+
 /// Swaps two charts, once or twice; of one or two charts it throws one anywhere.
 void CoarseSearch::disturb(std::vector<Place>& places, const Domain& domain) {
-  const int count = static_cast<int>(places.size());
+  if (places.size() < 3) {
+    places[any_chart()] = {random_.below(options_.angles), random_.below(domain.width),
+                           random_.below(domain.height)};
+    return;
+  }
   const int swaps = 1 + random_.below(2);
   for (int i = 0; i < swaps; ++i) {
-    Place& a = places[static_cast<std::size_t>(random_.below(count))];
-    Place& b = places[static_cast<std::size_t>(random_.below(count))];
-    std::swap(a.x, b.x);
-    std::swap(a.y, b.y);
-  }
-  if (count < 3) {
-    Place& place = places[static_cast<std::size_t>(random_.below(count))];
-    place = {random_.below(options_.angles), random_.below(domain.width),
-             random_.below(domain.height)};
+    const std::size_t a = any_chart();
+    std::size_t b = any_chart();
+    while (a == b) b = any_chart();
+    std::swap(places[a].x, places[b].x);
+    std::swap(places[a].y, places[b].y);
   }
 }
 
 void CoarseSearch::run(Effort& effort, bool until_stuck) {
   SeparateOptions options;
-  options.stall_rounds = options_.stall_rounds;
+  options.stall_rounds = until_stuck ? options_.hasty_rounds : options_.stall_rounds;
   options.effort = &effort;
   while (step_ > 1 && !effort.spent()) {
     const Domain domain = domain_at(step_);
@@ -138,11 +171,13 @@ void CoarseSearch::run(Effort& effort, bool until_stuck) {
     if (fit_angles(domain, places)) {
       Separator separator(*library_, domain, random_);
       filled = separator.run(places, options);
+      if (!filled) keep_near(separator.least(), places);
     }
     if (filled) {
       filled_step_ = step_of_places_ = step_;
       filled_places_ = places_ = places;
       failures_ = 0;
+      near_.clear();
       if (best_step_ == 0 || step_ < best_step_) {
         best_step_ = step_;
         best_places_ = places;
@@ -153,6 +188,7 @@ void CoarseSearch::run(Effort& effort, bool until_stuck) {
     if (effort.spent()) break;
     if (filled_step_ == 0) {  // a hard set: more room
       step_ += 1 + step_ / 20;
+      near_.clear();
       if (step_ > 2 * kLongest * options_.side) return;
       start_step_ = std::max(start_step_, step_);
       places_ = places;
@@ -164,9 +200,8 @@ void CoarseSearch::run(Effort& effort, bool until_stuck) {
       begin_anew();
       continue;
     }
-    places_ = filled_places_;
-    step_of_places_ = filled_step_;
-    disturb(places_, domain_at(filled_step_));
+    retreat();
+    disturb(places_, domain_at(step_of_places_));
     if (until_stuck) break;
   }
 }

@@ -15,10 +15,11 @@ namespace wrapatlas {
 
 struct CoarseOptions {
   int side = 0;      ///< cells along the side of a square domain packed to 85 %
-  int angles = 64;   ///< tried per chart; divides kAngleSteps
+  int angles = 128;  ///< that a chart can have; divides kAngleSteps
   double grown = 0;  ///< texels by which charts are grown
-  int stall_rounds = 40;
-  int patience = 40;  ///< disturbances that lead to nothing before it begins anew
+  int stall_rounds = 100;
+  int hasty_rounds = 40;  ///< instead, where it is to run until it is stuck
+  int patience = 40;      ///< disturbances that lead to nothing before it begins anew
 };
 
 /// One line of search on one shape of domain.
@@ -46,6 +47,9 @@ class CoarseSearch {
   [[nodiscard]] Domain domain_at(int step) const;
   [[nodiscard]] bool fit_angles(const Domain& domain, std::vector<Place>& places);
   void begin_anew();
+  void keep_near(std::int64_t overlap, const std::vector<Place>& places);
+  void retreat();
+  [[nodiscard]] std::size_t any_chart();
   void disturb(std::vector<Place>& places, const Domain& domain);
 
   std::span<const ChartShape> shapes_;
@@ -63,7 +67,14 @@ class CoarseSearch {
   std::vector<Place> places_;
   int filled_step_ = 0;  ///< smallest domain filled since it began anew; 0: none
   std::vector<Place> filled_places_;
-  int best_step_ = 0;  ///< smallest domain ever filled; 0: none
+  /// Of the domain now tried: layouts with little overlap, the least first.
+  struct Near {
+    std::int64_t overlap;  ///< cells
+    std::vector<Place> places;
+  };
+  std::vector<Near> near_;
+  std::vector<double> chances_;  ///< of charts to be disturbed, each with those before it
+  int best_step_ = 0;            ///< smallest domain ever filled; 0: none
   std::vector<Place> best_places_;
 };
 

@@ -116,11 +116,16 @@ void Separator::move_anywhere(std::size_t chart, const SeparateOptions& options)
     best_shift(field_, piece, range, best);
     if (best.cost < before) to = {angle, best.x, best.y};
   };
+  const int count = library_.angles();
   try_angle(old.angle);
-  const int first = random_.below(library_.angles());
-  for (int k = 0; k < library_.angles() && best.cost > 0; ++k) {
-    const int angle = (first + k) % library_.angles();
-    if (angle != old.angle && random_.unit() < options.angle_share) try_angle(angle);
+  for (int k = 1; k <= options.near_angles && best.cost > 0; ++k) {
+    try_angle(modulo(old.angle + k, count));
+    if (best.cost > 0) try_angle(modulo(old.angle - k, count));
+  }
+  const double share = options.any_angles / count;
+  const int first = random_.below(count);
+  for (int k = 0; k < count && best.cost > 0; ++k) {
+    if (random_.unit() < share) try_angle((first + k) % count);
   }
   put(chart, to);
 }

@@ -24,7 +24,8 @@ struct Place {
 struct SeparateOptions {
   int stall_rounds = 40;     ///< rounds without less overlap after which it gives up
   int window = 0;            ///< cells that a chart may move at a time; 0: anywhere
-  double angle_share = 0.3;  ///< without a window: share of all angles looked at in a move
+  double any_angles = 16;    ///< without a window: so many angles are looked at in a move, about,
+  int near_angles = 2;       ///< and so many to each side of the chart's own
   int angle_step = 1;        ///< with a window: largest change of the angle's number in a move
   Effort* effort = nullptr;  ///< counts the moves and says when it is enough
 };
@@ -35,6 +36,8 @@ class Separator {
 
   /// Moves charts until none overlap. Otherwise false, with the places of least overlap met.
   bool run(std::vector<Place>& places, const SeparateOptions& options);
+  /// Cells of the least overlap met in the last run.
+  [[nodiscard]] std::int64_t least() const { return least_; }
 
  private:
   void take(const std::vector<Place>& places);

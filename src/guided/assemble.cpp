@@ -93,76 +93,101 @@ Turn turn_to_box(const std::vector<Vec2>& points, Vec2 sides) {
   return best;
 }
 
-}  // namespace
-
-std::optional<Assembly> assemble(std::span<const ChartShape> shapes, std::span<const Frame> frames,
-                                 const PackOptions& options, double seconds, const Effort& effort) {
+/// Between the points of borders; 0 if in so many seconds not enough of them can be compared.
+double border_step(std::span<const ChartShape> shapes, double seconds) {
   constexpr double kSecondsPerPair = 8e-9;
   constexpr double kFewestSteps = 20, kMostSteps = 40;  // along the side of a mean chart
-  const double area = total_area(shapes);
-  const double side = std::sqrt(area / static_cast<double>(shapes.size()));
+  const double side = std::sqrt(total_area(shapes) / static_cast<double>(shapes.size()));
   double length_of_borders = 0;
   for (const ChartShape& shape : shapes) {
     for (const RasterShape::Edge& edge : shape.raster.edges) {
       length_of_borders += length(shape.raster.points[edge.to] - shape.raster.points[edge.from]);
     }
   }
-  if (!(area > 0) || !(length_of_borders > 0)) return {};
+  if (!(side > 0) || !(length_of_borders > 0)) return 0;
   // n points are n^2 / 2 pairs.
   const double affordable = std::sqrt(2 * seconds / kSecondsPerPair);
   const double steps = std::min(kMostSteps, affordable * side / length_of_borders);
-  if (!(steps >= kFewestSteps)) return {};
-  Joiner joiner(shapes, side / steps);
+  return steps >= kFewestSteps ? side / steps : 0;
+}
+
+/// Onto the frame that it fits best.
+Turn turn_to_frame(const Joiner& joiner, std::uint32_t group, std::span<const Frame> frames,
+                   double area, Wrap wrap, const std::vector<Vec2>& points) {
+  const auto periods = joiner.periods(group);
+  Turn best;
+  for (std::size_t f = 0; f < frames.size(); ++f) {
+    const Vec2 sides = sides_of(frames[f], area);
+    Turn turn =
+        wrap == Wrap::none ? turn_to_box(points, sides) : turn_to_periods(periods, sides, wrap);
+    turn.frame = f;
+    if (turn.strength > best.strength) best = std::move(turn);
+  }
+  return best;
+}
+
+/// Where the charts lie on an atlas with these sides; nothing if they stick out of it.
+std::optional<Layout> lay_out(const Groups& groups, const std::vector<Vec2>& points,
+                              std::span<const ChartShape> shapes, Vec2 sides, Wrap wrap) {
+  constexpr double kLargest = 1.1;  // of a side that does not wrap
+  Box2 box;
+  for (const Vec2 p : points) box.add(p);
+  if (!wraps_u(wrap) && box.size().x > kLargest * sides.x) return {};
+  if (!wraps_v(wrap) && box.size().y > kLargest * sides.y) return {};
+  const Vec2 origin{wraps_u(wrap) ? 0 : box.min.x, wraps_v(wrap) ? 0 : box.min.y};
+  Layout layout;
+  for (std::uint32_t i = 0; i < shapes.size(); ++i) {
+    const Pose& pose = groups.pose(i);
+    const double turns = (pose.angle - shapes[i].base_angle) / (2 * std::numbers::pi);
+    const int angle = static_cast<int>(std::lround((turns - std::floor(turns)) * kAngleSteps));
+    const Vec2 at{(pose.shift.x - origin.x) / sides.x, (pose.shift.y - origin.y) / sides.y};
+    layout.spots.push_back({angle % kAngleSteps,
+                            {wraps_u(wrap) ? at.x - std::floor(at.x) : at.x,
+                             wraps_v(wrap) ? at.y - std::floor(at.y) : at.y}});
+  }
+  return layout;
+}
+
+}  // namespace
+
+std::optional<Assembly> assemble(std::span<const ChartShape> shapes, std::span<const Frame> frames,
+                                 const PackOptions& options, double seconds, const Effort& effort) {
+  const double step = border_step(shapes, seconds);
+  if (step == 0) return {};
+  Joiner joiner(shapes, step);
   if (!joiner.all_have_borders()) return {};
   joiner.join_all(thread_count(options.threads), effort);
   Groups& groups = joiner.groups();
   const std::uint32_t group = groups.largest();
   if (groups.members(group).size() < shapes.size()) return {};
 
-  Turn best;
-  const auto periods = joiner.periods(group);
-  const auto points = points_of(groups, group, shapes);
-  for (std::size_t f = 0; f < frames.size(); ++f) {
-    const Vec2 sides = sides_of(frames[f], area);
-    Turn turn = options.wrap == Wrap::none ? turn_to_box(points, sides)
-                                           : turn_to_periods(periods, sides, options.wrap);
-    turn.frame = f;
-    if (turn.strength > best.strength) best = std::move(turn);
-  }
-  if (best.strength == 0 || joiner.contact(group, best.periods) < kContact) return {};
-  const Frame& frame = frames[best.frame];
-  const Vec2 sides = sides_of(frame, area);
-  const std::size_t chosen = best.frame;
-  const auto turn_all = [&](double angle) {
-    for (const std::uint32_t chart : groups.members(group)) groups.move(chart, {angle, {}});
+  const double area = total_area(shapes);
+  Turn turn =
+      turn_to_frame(joiner, group, frames, area, options.wrap, points_of(groups, group, shapes));
+  const auto holds = [&] {
+    return turn.strength > 0 && joiner.contact(group, turn.periods) >= kContact;
   };
-  turn_all(best.angle);
+  const auto turn_all = [&] {
+    for (const std::uint32_t chart : groups.members(group)) groups.move(chart, {turn.angle, {}});
+  };
+  if (!holds()) return {};
+  const Frame& frame = frames[turn.frame];
+  const Vec2 sides = sides_of(frame, area);
+  Assembly result;
+  result.frame = turn.frame;
+  turn_all();
   if (options.wrap == Wrap::uv) {
     joiner.relocate(group, sides);
-    best = turn_to_periods(joiner.periods(group), sides, options.wrap);
-    if (best.strength == 0 || joiner.contact(group, best.periods) < kContact) return {};
-    turn_all(best.angle);
+    turn = turn_to_periods(joiner.periods(group), sides, options.wrap);
+    if (!holds()) return {};
+    turn_all();
   }
-  if (!best.periods.empty()) joiner.settle(group, best.periods);
+  if (!turn.periods.empty()) joiner.settle(group, turn.periods);
 
-  Assembly result;
-  result.frame = chosen;
-  Box2 box;
-  for (const Vec2 p : points_of(groups, group, shapes)) box.add(p);
-  constexpr double kLargest = 1.1;  // of a side that does not wrap
-  if (!wraps_u(options.wrap) && box.size().x > kLargest * sides.x) return {};
-  if (!wraps_v(options.wrap) && box.size().y > kLargest * sides.y) return {};
-  const Vec2 origin{wraps_u(options.wrap) ? 0 : box.min.x, wraps_v(options.wrap) ? 0 : box.min.y};
+  auto layout = lay_out(groups, points_of(groups, group, shapes), shapes, sides, options.wrap);
+  if (!layout) return {};
+  result.layout = std::move(*layout);
   result.layout.scale = frame.width * frame.cell.x / sides.x;
-  for (std::uint32_t i = 0; i < shapes.size(); ++i) {
-    const Pose& pose = groups.pose(i);
-    const double turns = (pose.angle - shapes[i].base_angle) / (2 * std::numbers::pi);
-    const int angle = static_cast<int>(std::lround((turns - std::floor(turns)) * kAngleSteps));
-    const Vec2 at{(pose.shift.x - origin.x) / sides.x, (pose.shift.y - origin.y) / sides.y};
-    result.layout.spots.push_back({angle % kAngleSteps,
-                                   {wraps_u(options.wrap) ? at.x - std::floor(at.x) : at.x,
-                                    wraps_v(options.wrap) ? at.y - std::floor(at.y) : at.y}});
-  }
   return result;
 }
 

@@ -14,7 +14,9 @@ namespace wrapatlas {
 struct FreeRange {
   int x_begin = 0, x_end = 0;
   int y_begin = 0, y_count = 0;
-  bool whole = false;  ///< the range is all there is, so that beyond it nothing is free
+  /// The range is all there is, so that beyond it nothing is free; otherwise what is there counts
+  /// as free, but for what is beyond the first and the last column of the domain.
+  bool whole = false;
 };
 
 struct CellShift {

@@ -31,6 +31,21 @@ double fine_cell(const PackOptions& options, std::size_t charts) {
   return std::max(1.0, double(longest) / finest);
 }
 
+/// Turned by a right angle, charts fill a shape of atlas as well as its mirror image, unless only
+/// one of its axes wraps: of such two the second is left out.
+std::vector<Frame> without_mirrored(const std::vector<Frame>& frames, Wrap wrap) {
+  if (wraps_u(wrap) != wraps_v(wrap)) return frames;
+  std::vector<Frame> kept;
+  for (const Frame& frame : frames) {
+    const bool mirrored = std::any_of(kept.begin(), kept.end(), [&](const Frame& other) {
+      return other.texture_width == frame.texture_height &&
+             other.texture_height == frame.texture_width;
+    });
+    if (!mirrored) kept.push_back(frame);
+  }
+  return kept;
+}
+
 /// Charts may be the pieces of one sheet: if all of them fit together they are packed like that.
 void search_assembly(std::span<const ChartShape> shapes, const PackOptions& options,
                      std::span<const Frame> frames, Record& record) {
@@ -48,62 +63,82 @@ void search_assembly(std::span<const ChartShape> shapes, const PackOptions& opti
   if (fine) record.offer(std::move(*fine), 1);
 }
 
+/// What all ways begin with and report to.
+struct Task {
+  std::span<const Chart> charts;
+  const PackOptions& options;
+  std::span<const Frame> frames;
+  FirstPacker first;
+  Record record;
+  std::optional<Error> failure;  ///< of the first packer
+
+  /// Offers a packing by modulo, which is quick and finds one where there is one.
+  void offer_first() {
+    double area = 0;
+    for (const Chart& chart : charts) area += chart.area;
+    PackOptions modulo = options;
+    modulo.method = Method::modulo;
+    auto packing = first(charts, modulo, area);
+    if (packing) {
+      record.offer(std::move(*packing), 0);
+    } else {
+      failure = packing.error();
+    }
+  }
+};
+
+void separate_few(Task& task) {
+  task.offer_first();
+  if (task.failure && task.failure->kind == ErrorKind::interrupted) return;
+  if (task.record.best() && task.record.best()->interrupted) return;
+  const std::vector<ChartShape> shapes = make_shapes(task.charts);
+  // With so little time separation may come to nothing.
+  constexpr double kShort = 0.5;
+  if (task.record.timed() && task.options.time < kShort) {
+    search_best_fit(shapes, task.options, task.frames, task.record, false);
+  }
+  search_assembly(shapes, task.options, task.frames, task.record);
+  Lines lines(shapes, task.options, task.frames, task.record);
+  if (task.record.best()) lines.begin_with(*task.record.best(), false);
+  lines.run();
+}
+
+void fit_many(Task& task) {
+  const std::vector<ChartShape> shapes = make_shapes(task.charts);
+  const bool separate = shapes.size() <= kMostImproved && task.frames.size() == 1 &&
+                        (task.record.timed() || task.options.moves > 0);
+  search_best_fit(shapes, task.options, task.frames, task.record, !separate);
+  if (!task.record.best() && !task.record.stopped()) task.offer_first();
+  if (separate && task.record.best()) {
+    Lines lines(shapes, task.options, task.frames, task.record);
+    lines.begin_with(*task.record.best(), true);
+    lines.run();
+  }
+}
+
 }  // namespace
 
 Result<Packing> pack_guided(std::span<const Chart> charts, const PackOptions& options,
                             FirstPacker first) {
   const auto start = Effort::Clock::now();
-  const auto frames = make_frames(options, fine_cell(options, charts.size()));
-  if (!frames) return frames.error();
-  double area = 0;
-  for (const Chart& chart : charts) area += chart.area;
+  const auto all_frames = make_frames(options, fine_cell(options, charts.size()));
+  if (!all_frames) return all_frames.error();
+  const std::vector<Frame> frames = without_mirrored(*all_frames, options.wrap);
   if (options.pages != 1 || options.density > 0) {
-    return pack_pages(make_shapes(charts), options, *frames);
+    return pack_pages(make_shapes(charts), options, frames);
   }
-  Record record(options);
-  const bool separate = charts.size() <= kMostSeparated;
-  std::optional<Error> failure;
-  const auto take_first = [&] {
-    PackOptions modulo = options;
-    modulo.method = Method::modulo;
-    auto packing = first(charts, modulo, area);
-    if (!packing) {
-      failure = packing.error();
-    } else {
-      record.offer(std::move(*packing), 0);
-    }
-  };
-  if (separate) take_first();
-  if (failure && failure->kind == ErrorKind::interrupted) return *failure;
-  if (record.best() && record.best()->interrupted) return std::move(*record.best());
-  const std::vector<ChartShape> shapes = make_shapes(charts);
-  if (separate) {
-    // With so little time separation may come to nothing.
-    constexpr double kShort = 0.5;
-    if (record.timed() && options.time < kShort) {
-      search_best_fit(shapes, options, *frames, record, false);
-    }
-    search_assembly(shapes, options, *frames, record);
-    Lines lines(shapes, options, *frames, record);
-    if (record.best()) lines.begin_with(*record.best(), false);
-    lines.run();
+  Task task{charts, options, frames, first, Record(options), {}};
+  if (charts.size() <= kMostSeparated) {
+    separate_few(task);
   } else {
-    const bool improve = charts.size() <= kMostImproved && frames->size() == 1 &&
-                         (record.timed() || options.moves > 0);
-    search_best_fit(shapes, options, *frames, record, !improve);
-    if (!record.best() && !record.stopped()) take_first();
-    if (improve && record.best()) {
-      Lines lines(shapes, options, *frames, record);
-      lines.begin_with(*record.best(), true);
-      lines.run();
-    }
+    fit_many(task);
   }
-  if (!record.best()) {
-    if (failure) return *failure;
+  if (!task.record.best()) {
+    if (task.failure) return *task.failure;
     return Error{ErrorKind::interrupted, "", "stopped before a packing was found", ""};
   }
-  Packing packing = std::move(*record.best());
-  packing.interrupted = packing.interrupted || record.stopped();
+  Packing packing = std::move(*task.record.best());
+  packing.interrupted = packing.interrupted || task.record.stopped();
   packing.raster_seconds = 0;
   packing.place_seconds = std::chrono::duration<double>(Effort::Clock::now() - start).count();
   return packing;

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <vector>
 
 #include "guided/contact.h"
@@ -224,6 +225,101 @@ TEST(FreeMap, TightTranslationsComeFirst) {
       }
     }
   }
+}
+
+/// Of a part of the domain, as best fit settles a chart: what is beyond counts as free, but for the
+/// first and the last column.
+TEST(FreeMap, PartsOfTheDomainAreRankedByWhatIsInThem) {
+  Random random(14);
+  int ranked = 0;
+  for (int trial = 0; trial < 300; ++trial) {
+    const Domain domain = random_domain(random);
+    const Boards boards(random, domain);
+    const Piece piece = test::random_piece(random, 1 + random.below(10), 1 + random.below(6));
+    if (piece.cells == 0 || !admits(domain, piece)) continue;
+    const int rows = domain.wraps_y ? domain.height : domain.height - piece.height + 1;
+    FreeRange range;
+    range.x_begin = random.below(domain.width);
+    range.x_end = range.x_begin + 1 + random.below(domain.width - range.x_begin);
+    range.y_begin = random.below(rows);
+    range.y_count = 1 + random.below(domain.wraps_y ? rows : rows - range.y_begin);
+    const auto free = [&](int x, int row) {
+      if (row < 0 || row >= range.y_count) return true;
+      if (x < 0 || x >= domain.width) return false;
+      if (x < range.x_begin || x >= range.x_end) return true;
+      return boards.slow.free(piece, x, (range.y_begin + row) % domain.height);
+    };
+    const auto blocked = [&](int x, int row) {
+      return int(!free(x - 1, row)) + int(!free(x + 1, row)) + int(!free(x, row - 1)) +
+             int(!free(x, row + 1));
+    };
+    std::vector<int> expected;
+    int all = 0;
+    for (int row = 0; row < range.y_count; ++row) {
+      for (int x = range.x_begin; x < range.x_end; ++x) {
+        if (!free(x, row)) continue;
+        ++all;
+        if (blocked(x, row) > 0) expected.push_back(blocked(x, row));
+      }
+    }
+    std::sort(expected.rbegin(), expected.rend());
+    FreeMap map;
+    const Probes probes = probes_of(piece, test::cells_of(piece), boards.fast);
+    EXPECT_EQ(map.scan(boards.fast, probes, range, 0), range.y_count);
+    EXPECT_EQ(map.first_row() >= 0, all > 0);
+    std::vector<CellShift> shifts;
+    map.tightest(static_cast<std::size_t>(all) + 10, shifts);
+    if (expected.empty()) {
+      ASSERT_EQ(shifts.size(), all > 0 ? 1U : 0U);
+      continue;
+    }
+    ASSERT_EQ(shifts.size(), expected.size());
+    for (std::size_t i = 0; i < shifts.size(); ++i) {
+      const int row = (shifts[i].y - range.y_begin + domain.height) % domain.height;
+      ASSERT_TRUE(row < range.y_count && free(shifts[i].x, row));
+      ASSERT_EQ(blocked(shifts[i].x, row), expected[i]);
+      ++ranked;
+    }
+  }
+  EXPECT_GT(ranked, 1000);
+}
+
+TEST(FreeMap, EndsWhereEnoughIsFound) {
+  Random random(15);
+  int early = 0, late = 0;
+  for (int trial = 0; trial < 300; ++trial) {
+    const Domain domain = random_domain(random);
+    const Boards boards(random, domain);
+    const Piece piece = test::random_piece(random, 1 + random.below(10), 1 + random.below(6));
+    if (piece.cells == 0 || !admits(domain, piece)) continue;
+    FreeRange range;
+    range.x_end = domain.width;
+    range.y_count = domain.wraps_y ? domain.height : domain.height - piece.height + 1;
+    range.whole = true;
+    const Probes probes = probes_of(piece, test::cells_of(piece), boards.fast);
+    const int enough = 1 + random.below(20);
+    FreeMap map;
+    std::vector<CellShift> shifts;
+    const int rows = map.scan(boards.fast, probes, range, enough);
+    map.tightest(static_cast<std::size_t>(enough), shifts);
+    ASSERT_LE(rows, range.y_count);
+    for (const CellShift s : shifts) {
+      ASSERT_LT(s.y, rows);
+      ASSERT_TRUE(boards.slow.free(piece, s.x, s.y));
+    }
+    if (rows < range.y_count) {
+      ++early;
+      ASSERT_EQ(shifts.size(), static_cast<std::size_t>(enough));
+    } else {
+      ++late;
+    }
+    // What is in front of the first row with a free translation may be left out next time.
+    for (int y = 0; y < (map.first_row() < 0 ? rows : map.first_row()); ++y) {
+      for (int x = 0; x < domain.width; ++x) ASSERT_FALSE(boards.slow.free(piece, x, y));
+    }
+  }
+  EXPECT_GT(early, 50);
+  EXPECT_GT(late, 20);
 }
 
 TEST(Contact, IsTheShareOfNeighbouringCellsThatAreTaken) {

@@ -1,0 +1,149 @@
+// Separation and the search on shrinking domains, against a look at every cell.
+#include "guided/separate.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <vector>
+
+#include "guided/coarse.h"
+#include "support/shapes.h"
+
+namespace wrapatlas {
+namespace {
+
+std::vector<ChartShape> random_shapes(std::uint64_t seed, int count) {
+  std::mt19937_64 random(seed);
+  std::vector<Chart> charts;
+  for (int i = 0; i < count; ++i) {
+    const double size = test::uniform(random, 0.3, 1);
+    charts.push_back(i % 3 == 0 ? test::arc(size, size / 4, 4, 12)
+                                : test::star(random, 9, size / 3, size));
+  }
+  return make_shapes(charts);
+}
+
+RasterScale cells(double per_unit) {
+  RasterScale scale;
+  scale.cells_per_unit = {per_unit, per_unit};
+  scale.coverage = Coverage::center;
+  return scale;
+}
+
+/// Pairs of charts on a cell, summed over all cells; or -1 if one leaves the domain.
+std::int64_t overlap(PieceLibrary& library, const Domain& domain,
+                     const std::vector<Place>& places) {
+  std::vector<int> on(static_cast<std::size_t>(domain.width * domain.height));
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    for (const PieceRun& run : library.piece(i, places[i].angle).runs) {
+      for (int k = run.begin; k < run.end; ++k) {
+        int x = places[i].x + k, y = places[i].y + run.row;
+        if (domain.wraps_x) x %= domain.width;
+        if (domain.wraps_y) y %= domain.height;
+        if (x < 0 || x >= domain.width || y < 0 || y >= domain.height) return -1;
+        ++on[static_cast<std::size_t>(y * domain.width + x)];
+      }
+    }
+  }
+  std::int64_t pairs = 0;
+  for (const int count : on) pairs += std::int64_t{count} * (count - 1) / 2;
+  return pairs;
+}
+
+Domain with_wrap(int side, int wrap) { return {side, side, (wrap & 1) != 0, (wrap & 2) != 0}; }
+
+TEST(Separator, LeavesTheOverlapItSays) {
+  const auto shapes = random_shapes(1, 11);
+  PieceLibrary library(shapes, cells(12), 64, 400);
+  int separated = 0, stuck = 0;
+  for (int trial = 0; trial < 48; ++trial) {
+    const Domain domain = with_wrap(25 + trial / 4, trial);
+    Random random(static_cast<std::uint64_t>(trial));
+    std::vector<Place> places(shapes.size());
+    for (Place& place : places) place.angle = random.below(64);
+    Effort effort(nullptr);
+    SeparateOptions options;
+    options.effort = &effort;
+    options.stall_rounds = 8;
+    options.window = trial % 3 == 0 ? 10 : 0;
+    Separator separator(library, domain, random);
+    const bool done = separator.run(places, options);
+    const std::int64_t left = overlap(library, domain, places);
+    ASSERT_GE(left, 0) << "out of the domain in trial " << trial;
+    EXPECT_EQ(separator.least(), left);
+    EXPECT_EQ(done, left == 0);
+    ++(done ? separated : stuck);
+  }
+  EXPECT_GT(separated, 10);
+  EXPECT_GT(stuck, 10);
+}
+
+TEST(Separator, ARunThatIsStoppedGivesTheBestSoFar) {
+  const auto shapes = random_shapes(2, 9);
+  PieceLibrary library(shapes, cells(20), 64, 400);
+  const Domain domain = with_wrap(50, 3);
+  Random random(5);
+  std::vector<Place> places(shapes.size());
+  const std::int64_t before = overlap(library, domain, places);
+  Effort effort(nullptr);
+  effort.moves(40);
+  SeparateOptions options;
+  options.effort = &effort;
+  Separator separator(library, domain, random);
+  EXPECT_FALSE(separator.run(places, options));
+  EXPECT_EQ(effort.moves_made(), 40);
+  EXPECT_LT(overlap(library, domain, places), before);
+  EXPECT_EQ(separator.least(), overlap(library, domain, places));
+}
+
+/// The layout of a search drawn again: on a grid eight times as fine, where hardly a cell is
+/// shared.
+double overlapping_share(std::span<const ChartShape> shapes, const Layout& layout, Vec2 lengths,
+                         int wrap) {
+  constexpr double kFine = 8;
+  const Domain domain{static_cast<int>(std::lround(kFine * lengths.x)),
+                      static_cast<int>(std::lround(kFine * lengths.y)), (wrap & 1) != 0,
+                      (wrap & 2) != 0};
+  PieceLibrary library(shapes, cells(kFine * layout.scale), kAngleSteps,
+                       4 * std::max(domain.width, domain.height));
+  const auto places = to_places(layout, library, domain);
+  return static_cast<double>(overlap(library, domain, places)) / domain.width / domain.height;
+}
+
+TEST(CoarseSearch, ItsBestLayoutIsOneAndGetsNoWorse) {
+  const auto shapes = random_shapes(3, 8);
+  for (int wrap = 0; wrap < 4; ++wrap) {
+    const Vec2 lengths = wrap == 1 ? Vec2{100, 50} : Vec2{70, 70};
+    CoarseOptions options;
+    options.side = 96;
+    CoarseSearch search(shapes, lengths, (wrap & 1) != 0, (wrap & 2) != 0, options, 7);
+    EXPECT_FALSE(search.found());
+    double last = 0;
+    for (const int moves : {300, 1000, 2000}) {
+      Effort effort(nullptr);
+      effort.moves(moves);
+      search.run(effort, false);
+      ASSERT_TRUE(search.found());
+      EXPECT_GE(search.efficiency(), last);
+      last = search.efficiency();
+      const Layout layout = search.best();
+      EXPECT_NEAR(layout.scale * layout.scale * total_area(shapes), last * lengths.x * lengths.y,
+                  1e-6 * lengths.x * lengths.y);
+      ASSERT_EQ(layout.spots.size(), shapes.size());
+      EXPECT_LT(overlapping_share(shapes, layout, lengths, wrap), 0.01);
+    }
+    EXPECT_GT(last, 0.5);
+    CoarseSearch other(shapes, lengths, (wrap & 1) != 0, (wrap & 2) != 0, options, 8);
+    other.adopt(search);
+    EXPECT_EQ(other.efficiency(), last);
+    Effort effort(nullptr);
+    effort.moves(1000);
+    other.run(effort, false);
+    EXPECT_GE(other.efficiency(), last);
+  }
+}
+
+}  // namespace
+}  // namespace wrapatlas

@@ -106,7 +106,8 @@ void add_texcoord(CLI::App& app, int& value) {
 
 void add_threads(CLI::App& app, int& value) {
   add_number(app, "--threads", value, {0, 1024, "threads"},
-             "Threads; 0: as many as the machine has. Never changes the result");
+             "Threads; 0: as many as the machine has. Changes the result only where "
+             "guided searches for a time");
 }
 
 void add_json(CLI::App& app, std::string& path) {

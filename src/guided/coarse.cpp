@@ -165,6 +165,7 @@ void CoarseSearch::run(Effort& effort, bool until_stuck) {
   options.stall_rounds = until_stuck ? options_.hasty_rounds : options_.stall_rounds;
   options.effort = &effort;
   while (step_ > 1 && !effort.spent()) {
+    effort.count_move();  // of one chart no move may ever be needed
     const Domain domain = domain_at(step_);
     std::vector<Place> places = scaled(places_, *library_, domain_at(step_of_places_), domain);
     bool filled = false;

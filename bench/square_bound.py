@@ -3,7 +3,7 @@
 
 For each file the largest scale at which every chart by itself fits into the square at some angle, as
 the efficiency at that scale. What a packer reaches cannot be more. With --pairs also the scale at
-which the two largest charts fit together (pair_square.py: an estimate; half a minute a file).
+which the two largest charts fit together (pair_square.py: an estimate; some ten seconds a file).
 """
 
 import argparse

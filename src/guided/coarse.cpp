@@ -39,7 +39,7 @@ CoarseSearch::CoarseSearch(std::span<const ChartShape> shapes, Vec2 lengths, boo
       std::make_unique<PieceLibrary>(shapes_, scale, options_.angles, kLongest * options_.side);
   double sum = 0;
   for (const ChartShape& shape : shapes_) {
-    // Of the root of the root of the area: large charts matter more, tiny ones not at all.
+    // Of the root of the root of the area: large charts matter more than tiny ones.
     sum += std::sqrt(std::sqrt(shape.area / area_)) + kLeastChance;
     chances_.push_back(sum);
   }

@@ -67,7 +67,7 @@ class CoarseSearch {
   std::vector<Place> places_;
   int filled_step_ = 0;  ///< smallest domain filled since it began anew; 0: none
   std::vector<Place> filled_places_;
-  /// Of the domain now tried: layouts with little overlap, the least first.
+  /// Of the domain now tried: the layouts that did not fill it, that of least overlap first.
   struct Near {
     std::int64_t overlap;  ///< cells
     std::vector<Place> places;

@@ -21,7 +21,7 @@ class Effort {
 
   [[nodiscard]] std::int64_t moves_made() const { return moves_; }
 
-  /// One chart was put somewhere anew.
+  /// One chart was put somewhere anew, or a domain of another size was begun.
   void count_move() { ++moves_; }
   [[nodiscard]] bool stopped() const { return stop_ && stop_(); }
   [[nodiscard]] bool spent() const {

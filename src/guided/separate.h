@@ -22,7 +22,7 @@ struct Place {
 };
 
 struct SeparateOptions {
-  int stall_rounds = 40;     ///< rounds without less overlap after which it gives up
+  int stall_rounds = 40;     ///< rounds without 2 % less overlap after which it gives up
   int window = 0;            ///< cells that a chart may move at a time; 0: anywhere
   double any_angles = 16;    ///< without a window: so many angles are looked at in a move, about,
   int near_angles = 2;       ///< and so many to each side of the chart's own
@@ -36,7 +36,7 @@ class Separator {
 
   /// Moves charts until none overlap. Otherwise false, with the places of least overlap met.
   bool run(std::vector<Place>& places, const SeparateOptions& options);
-  /// Cells of the least overlap met in the last run.
+  /// Cells of the least overlap met at the end of a round of the last run.
   [[nodiscard]] std::int64_t least() const { return least_; }
 
  private:

@@ -32,16 +32,23 @@ double fine_cell(const PackOptions& options, std::size_t charts) {
 }
 
 /// Turned by a right angle, charts fill a shape of atlas as well as its mirror image, unless only
-/// one of its axes wraps: of such two the second is left out.
-std::vector<Frame> without_mirrored(const std::vector<Frame>& frames, Wrap wrap) {
+/// one of its axes wraps: of such two the second is left out, or the one that `begun`, a packing to
+/// go on from, is not on.
+std::vector<Frame> without_mirrored(const std::vector<Frame>& frames, Wrap wrap,
+                                    const std::optional<Packing>& begun) {
   if (wraps_u(wrap) != wraps_v(wrap)) return frames;
   std::vector<Frame> kept;
   for (const Frame& frame : frames) {
-    const bool mirrored = std::any_of(kept.begin(), kept.end(), [&](const Frame& other) {
+    const auto mirrored = std::find_if(kept.begin(), kept.end(), [&](const Frame& other) {
       return other.texture_width == frame.texture_height &&
              other.texture_height == frame.texture_width;
     });
-    if (!mirrored) kept.push_back(frame);
+    if (mirrored == kept.end()) {
+      kept.push_back(frame);
+    } else if (begun && begun->width == frame.texture_width &&
+               begun->height == frame.texture_height) {
+      *mirrored = frame;
+    }
   }
   return kept;
 }
@@ -67,7 +74,7 @@ void search_assembly(std::span<const ChartShape> shapes, const PackOptions& opti
 struct Task {
   std::span<const Chart> charts;
   const PackOptions& options;
-  std::span<const Frame> frames;
+  std::vector<Frame> frames;
   FirstPacker first;
   Record record;
   std::optional<Error> failure;  ///< of the first packer
@@ -91,6 +98,7 @@ void separate_few(Task& task) {
   task.offer_first();
   if (task.failure && task.failure->kind == ErrorKind::interrupted) return;
   if (task.record.best() && task.record.best()->interrupted) return;
+  task.frames = without_mirrored(task.frames, task.options.wrap, task.record.best());
   const std::vector<ChartShape> shapes = make_shapes(task.charts);
   // With so little time separation may come to nothing.
   constexpr double kShort = 0.5;
@@ -104,6 +112,7 @@ void separate_few(Task& task) {
 }
 
 void fit_many(Task& task) {
+  task.frames = without_mirrored(task.frames, task.options.wrap, {});
   const std::vector<ChartShape> shapes = make_shapes(task.charts);
   const bool separate = shapes.size() <= kMostImproved && task.frames.size() == 1 &&
                         (task.record.timed() || task.options.moves > 0);
@@ -121,13 +130,12 @@ void fit_many(Task& task) {
 Result<Packing> pack_guided(std::span<const Chart> charts, const PackOptions& options,
                             FirstPacker first) {
   const auto start = Effort::Clock::now();
-  const auto all_frames = make_frames(options, fine_cell(options, charts.size()));
-  if (!all_frames) return all_frames.error();
-  const std::vector<Frame> frames = without_mirrored(*all_frames, options.wrap);
+  auto frames = make_frames(options, fine_cell(options, charts.size()));
+  if (!frames) return frames.error();
   if (options.pages != 1 || options.density > 0) {
-    return pack_pages(make_shapes(charts), options, frames);
+    return pack_pages(make_shapes(charts), options, without_mirrored(*frames, options.wrap, {}));
   }
-  Task task{charts, options, frames, first, Record(options), {}};
+  Task task{charts, options, std::move(*frames), first, Record(options), {}};
   if (charts.size() <= kMostSeparated) {
     separate_few(task);
   } else {

@@ -175,149 +175,150 @@ TEST(FreeSpace, EveryVersionFindsAllFreeTranslations) {
   EXPECT_GT(blocked, 10000);
 }
 
-TEST(FreeMap, TightTranslationsComeFirst) {
-  Random random(13);
-  for (int trial = 0; trial < 200; ++trial) {
+/// Calls check(random, domain, boards, piece) for random ones, where the domain admits the piece.
+template <typename Check>
+void for_random_pieces(std::uint64_t seed, int trials, Check check) {
+  Random random(seed);
+  for (int trial = 0; trial < trials; ++trial) {
     const Domain domain = random_domain(random);
     const Boards boards(random, domain);
     const Piece piece = test::random_piece(random, 1 + random.below(10), 1 + random.below(6));
-    if (piece.cells == 0 || !admits(domain, piece)) continue;
-    FreeRange range;
-    range.x_end = domain.width;
-    range.y_count = domain.wraps_y ? domain.height : domain.height - piece.height + 1;
-    range.whole = true;
-    const auto free = [&](int x, int y) {
-      if (!domain.wraps_y && (y < 0 || y >= range.y_count)) return false;
-      if (!domain.wraps_x && (x < 0 || x >= domain.width)) return false;
-      return boards.slow.free(piece, x, y);
-    };
-    std::vector<std::size_t> with_blocked(5);
-    std::size_t all = 0;
-    for (int y = 0; y < range.y_count; ++y) {
-      for (int x = 0; x < domain.width; ++x) {
-        if (!free(x, y)) continue;
-        const int neighbours =
-            int(free(x - 1, y)) + int(free(x + 1, y)) + int(free(x, y - 1)) + int(free(x, y + 1));
-        ++with_blocked[static_cast<std::size_t>(4 - neighbours)];
-        ++all;
-      }
-    }
-    FreeMap map;
-    EXPECT_EQ(map.scan(boards.fast, probes_of(piece, test::cells_of(piece), boards.fast), range, 0),
-              range.y_count);
-    EXPECT_EQ(map.first_row() >= 0, all > 0);
-    std::vector<CellShift> shifts;
-    map.tightest(all + 10, shifts);
-    if (all > 0 && with_blocked[0] == all) {
-      ASSERT_EQ(shifts.size(), 1U);
-      EXPECT_TRUE(free(shifts[0].x, shifts[0].y));
-      continue;
-    }
-    ASSERT_EQ(shifts.size(), all - with_blocked[0]);
-    std::size_t i = 0;
-    for (std::size_t n = 5; n-- > 1;) {
-      for (std::size_t k = 0; k < with_blocked[n]; ++k, ++i) {
-        const CellShift s = shifts[i];
-        ASSERT_TRUE(free(s.x, s.y));
-        const int neighbours = int(free(s.x - 1, s.y)) + int(free(s.x + 1, s.y)) +
-                               int(free(s.x, s.y - 1)) + int(free(s.x, s.y + 1));
-        ASSERT_EQ(4 - neighbours, static_cast<int>(n));
-      }
-    }
+    if (piece.cells > 0 && admits(domain, piece)) check(random, domain, boards, piece);
   }
+}
+
+TEST(FreeMap, TightTranslationsComeFirst) {
+  for_random_pieces(
+      13, 200, [&](Random&, const Domain& domain, const Boards& boards, const Piece& piece) {
+        FreeRange range;
+        range.x_end = domain.width;
+        range.y_count = domain.wraps_y ? domain.height : domain.height - piece.height + 1;
+        range.whole = true;
+        const auto free = [&](int x, int y) {
+          if (!domain.wraps_y && (y < 0 || y >= range.y_count)) return false;
+          if (!domain.wraps_x && (x < 0 || x >= domain.width)) return false;
+          return boards.slow.free(piece, x, y);
+        };
+        std::vector<std::size_t> with_blocked(5);
+        std::size_t all = 0;
+        for (int y = 0; y < range.y_count; ++y) {
+          for (int x = 0; x < domain.width; ++x) {
+            if (!free(x, y)) continue;
+            const int neighbours = int(free(x - 1, y)) + int(free(x + 1, y)) + int(free(x, y - 1)) +
+                                   int(free(x, y + 1));
+            ++with_blocked[static_cast<std::size_t>(4 - neighbours)];
+            ++all;
+          }
+        }
+        FreeMap map;
+        EXPECT_EQ(
+            map.scan(boards.fast, probes_of(piece, test::cells_of(piece), boards.fast), range, 0),
+            range.y_count);
+        EXPECT_EQ(map.first_row() >= 0, all > 0);
+        std::vector<CellShift> shifts;
+        map.tightest(all + 10, shifts);
+        if (all > 0 && with_blocked[0] == all) {
+          ASSERT_EQ(shifts.size(), 1U);
+          EXPECT_TRUE(free(shifts[0].x, shifts[0].y));
+          return;
+        }
+        ASSERT_EQ(shifts.size(), all - with_blocked[0]);
+        std::size_t i = 0;
+        for (std::size_t n = 5; n-- > 1;) {
+          for (std::size_t k = 0; k < with_blocked[n]; ++k, ++i) {
+            const CellShift s = shifts[i];
+            ASSERT_TRUE(free(s.x, s.y));
+            const int neighbours = int(free(s.x - 1, s.y)) + int(free(s.x + 1, s.y)) +
+                                   int(free(s.x, s.y - 1)) + int(free(s.x, s.y + 1));
+            ASSERT_EQ(4 - neighbours, static_cast<int>(n));
+          }
+        }
+      });
 }
 
 /// Of a part of the domain, as best fit settles a chart: what is beyond counts as free, but for the
 /// first and the last column.
 TEST(FreeMap, PartsOfTheDomainAreRankedByWhatIsInThem) {
-  Random random(14);
   int ranked = 0;
-  for (int trial = 0; trial < 300; ++trial) {
-    const Domain domain = random_domain(random);
-    const Boards boards(random, domain);
-    const Piece piece = test::random_piece(random, 1 + random.below(10), 1 + random.below(6));
-    if (piece.cells == 0 || !admits(domain, piece)) continue;
-    const int rows = domain.wraps_y ? domain.height : domain.height - piece.height + 1;
-    FreeRange range;
-    range.x_begin = random.below(domain.width);
-    range.x_end = range.x_begin + 1 + random.below(domain.width - range.x_begin);
-    range.y_begin = random.below(rows);
-    range.y_count = 1 + random.below(domain.wraps_y ? rows : rows - range.y_begin);
-    const auto free = [&](int x, int row) {
-      if (row < 0 || row >= range.y_count) return true;
-      if (x < 0 || x >= domain.width) return false;
-      if (x < range.x_begin || x >= range.x_end) return true;
-      return boards.slow.free(piece, x, (range.y_begin + row) % domain.height);
-    };
-    const auto blocked = [&](int x, int row) {
-      return int(!free(x - 1, row)) + int(!free(x + 1, row)) + int(!free(x, row - 1)) +
-             int(!free(x, row + 1));
-    };
-    std::vector<int> expected;
-    int all = 0;
-    for (int row = 0; row < range.y_count; ++row) {
-      for (int x = range.x_begin; x < range.x_end; ++x) {
-        if (!free(x, row)) continue;
-        ++all;
-        if (blocked(x, row) > 0) expected.push_back(blocked(x, row));
-      }
-    }
-    std::sort(expected.rbegin(), expected.rend());
-    FreeMap map;
-    const Probes probes = probes_of(piece, test::cells_of(piece), boards.fast);
-    EXPECT_EQ(map.scan(boards.fast, probes, range, 0), range.y_count);
-    EXPECT_EQ(map.first_row() >= 0, all > 0);
-    std::vector<CellShift> shifts;
-    map.tightest(static_cast<std::size_t>(all) + 10, shifts);
-    if (expected.empty()) {
-      ASSERT_EQ(shifts.size(), all > 0 ? 1U : 0U);
-      continue;
-    }
-    ASSERT_EQ(shifts.size(), expected.size());
-    for (std::size_t i = 0; i < shifts.size(); ++i) {
-      const int row = (shifts[i].y - range.y_begin + domain.height) % domain.height;
-      ASSERT_TRUE(row < range.y_count && free(shifts[i].x, row));
-      ASSERT_EQ(blocked(shifts[i].x, row), expected[i]);
-      ++ranked;
-    }
-  }
+  for_random_pieces(
+      14, 300, [&](Random& random, const Domain& domain, const Boards& boards, const Piece& piece) {
+        const int rows = domain.wraps_y ? domain.height : domain.height - piece.height + 1;
+        FreeRange range;
+        range.x_begin = random.below(domain.width);
+        range.x_end = range.x_begin + 1 + random.below(domain.width - range.x_begin);
+        range.y_begin = random.below(rows);
+        range.y_count = 1 + random.below(domain.wraps_y ? rows : rows - range.y_begin);
+        const auto free = [&](int x, int row) {
+          if (row < 0 || row >= range.y_count) return true;
+          if (x < 0 || x >= domain.width) return false;
+          if (x < range.x_begin || x >= range.x_end) return true;
+          return boards.slow.free(piece, x, (range.y_begin + row) % domain.height);
+        };
+        const auto blocked = [&](int x, int row) {
+          return int(!free(x - 1, row)) + int(!free(x + 1, row)) + int(!free(x, row - 1)) +
+                 int(!free(x, row + 1));
+        };
+        std::vector<int> expected;
+        int all = 0;
+        for (int row = 0; row < range.y_count; ++row) {
+          for (int x = range.x_begin; x < range.x_end; ++x) {
+            if (!free(x, row)) continue;
+            ++all;
+            if (blocked(x, row) > 0) expected.push_back(blocked(x, row));
+          }
+        }
+        std::sort(expected.rbegin(), expected.rend());
+        FreeMap map;
+        const Probes probes = probes_of(piece, test::cells_of(piece), boards.fast);
+        EXPECT_EQ(map.scan(boards.fast, probes, range, 0), range.y_count);
+        EXPECT_EQ(map.first_row() >= 0, all > 0);
+        std::vector<CellShift> shifts;
+        map.tightest(static_cast<std::size_t>(all) + 10, shifts);
+        if (expected.empty()) {
+          ASSERT_EQ(shifts.size(), all > 0 ? 1U : 0U);
+          return;
+        }
+        ASSERT_EQ(shifts.size(), expected.size());
+        for (std::size_t i = 0; i < shifts.size(); ++i) {
+          const int row = (shifts[i].y - range.y_begin + domain.height) % domain.height;
+          ASSERT_TRUE(row < range.y_count && free(shifts[i].x, row));
+          ASSERT_EQ(blocked(shifts[i].x, row), expected[i]);
+          ++ranked;
+        }
+      });
   EXPECT_GT(ranked, 1000);
 }
 
 TEST(FreeMap, EndsWhereEnoughIsFound) {
-  Random random(15);
   int early = 0, late = 0;
-  for (int trial = 0; trial < 300; ++trial) {
-    const Domain domain = random_domain(random);
-    const Boards boards(random, domain);
-    const Piece piece = test::random_piece(random, 1 + random.below(10), 1 + random.below(6));
-    if (piece.cells == 0 || !admits(domain, piece)) continue;
-    FreeRange range;
-    range.x_end = domain.width;
-    range.y_count = domain.wraps_y ? domain.height : domain.height - piece.height + 1;
-    range.whole = true;
-    const Probes probes = probes_of(piece, test::cells_of(piece), boards.fast);
-    const int enough = 1 + random.below(20);
-    FreeMap map;
-    std::vector<CellShift> shifts;
-    const int rows = map.scan(boards.fast, probes, range, enough);
-    map.tightest(static_cast<std::size_t>(enough), shifts);
-    ASSERT_LE(rows, range.y_count);
-    for (const CellShift s : shifts) {
-      ASSERT_LT(s.y, rows);
-      ASSERT_TRUE(boards.slow.free(piece, s.x, s.y));
-    }
-    if (rows < range.y_count) {
-      ++early;
-      ASSERT_EQ(shifts.size(), static_cast<std::size_t>(enough));
-    } else {
-      ++late;
-    }
-    // What is in front of the first row with a free translation may be left out next time.
-    for (int y = 0; y < (map.first_row() < 0 ? rows : map.first_row()); ++y) {
-      for (int x = 0; x < domain.width; ++x) ASSERT_FALSE(boards.slow.free(piece, x, y));
-    }
-  }
+  for_random_pieces(
+      15, 300, [&](Random& random, const Domain& domain, const Boards& boards, const Piece& piece) {
+        FreeRange range;
+        range.x_end = domain.width;
+        range.y_count = domain.wraps_y ? domain.height : domain.height - piece.height + 1;
+        range.whole = true;
+        const Probes probes = probes_of(piece, test::cells_of(piece), boards.fast);
+        const int enough = 1 + random.below(20);
+        FreeMap map;
+        std::vector<CellShift> shifts;
+        const int rows = map.scan(boards.fast, probes, range, enough);
+        map.tightest(static_cast<std::size_t>(enough), shifts);
+        ASSERT_LE(rows, range.y_count);
+        for (const CellShift s : shifts) {
+          ASSERT_LT(s.y, rows);
+          ASSERT_TRUE(boards.slow.free(piece, s.x, s.y));
+        }
+        if (rows < range.y_count) {
+          ++early;
+          ASSERT_EQ(shifts.size(), static_cast<std::size_t>(enough));
+        } else {
+          ++late;
+        }
+        // What is in front of the first row with a free translation may be left out next time.
+        for (int y = 0; y < (map.first_row() < 0 ? rows : map.first_row()); ++y) {
+          for (int x = 0; x < domain.width; ++x) ASSERT_FALSE(boards.slow.free(piece, x, y));
+        }
+      });
   EXPECT_GT(early, 50);
   EXPECT_GT(late, 20);
 }

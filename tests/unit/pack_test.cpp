@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <chrono>
 #include <cmath>
 #include <new>
+#include <thread>
 
 #include "pack/frame.h"
 #include "pack/parallel.h"
@@ -259,6 +261,9 @@ TEST(ParallelFor, PassesOnWhatAJobThrows) {
                               [&](std::size_t i) {
                                 ++runs;
                                 if (i == 10) throw std::bad_alloc();
+                                // All others take half a second: time for one to be thrown.
+                                if (i > 10)
+                                  std::this_thread::sleep_for(std::chrono::milliseconds(1));
                               }),
                  std::bad_alloc);
     EXPECT_LT(runs, 1000);

@@ -51,17 +51,22 @@ std::optional<Error> check_result(const PackArguments& arguments, const Model& m
 /// What can be known of the outputs before the work begins.
 Status check_outputs(const PackArguments& arguments) {
   const auto format = format_from_path(arguments.output);
-  if (!format) return format.error();
+  const std::string remedy = "write .obj, .ply, .gltf or .glb";
+  if (!format) return Error{format.error().kind, arguments.output, format.error().what, remedy};
   if (*format == FileFormat::off || *format == FileFormat::stl) {
-    return usage(arguments.output, "OFF and STL files cannot hold UVs",
-                 "write .obj, .ply, .gltf or .glb");
+    return usage(arguments.output, "OFF and STL files cannot hold UVs", remedy);
   }
   if (!arguments.image.empty()) {
     if (const Status ok = check_picture_path(arguments.image); !ok) return ok;
   }
   const OutputPath outputs[] = {
       {"-o", arguments.output}, {"--image", arguments.image}, {"--json", arguments.json}};
-  return refuse_equal_outputs(outputs);
+  if (const Status ok = refuse_equal_outputs(outputs); !ok) return ok;
+  for (const OutputPath& output : outputs) {
+    if (output.path.empty() || output.path == "-") continue;
+    if (const Status ok = check_writable(output.path); !ok) return ok;
+  }
+  return Done{};
 }
 
 /// The model may take its own place.
@@ -82,7 +87,8 @@ Status resolve_density(PackArguments& arguments, double uv_density) {
   return Done{};
 }
 
-Error with_density(Error error, double uv_density) {
+Error as_command(Error error, double uv_density) {
+  if (error.kind == ErrorKind::interrupted) error.remedy = "nothing was written";
   if (error.density_that_fits > 0) {
     const double fits = error.density_that_fits * uv_density;
     const double unit = std::pow(10, std::floor(std::log10(fits)) - 4);
@@ -102,7 +108,7 @@ Result<Packing> pack_with_progress(PackArguments& arguments, const ChartSet& cha
     return !interrupted();
   };
   auto packing = pack(charts.charts, arguments.options);
-  if (!packing) return with_density(inside_input(arguments, packing.error()), uv_density);
+  if (!packing) return as_command(inside_input(arguments, packing.error()), uv_density);
   return packing;
 }
 

@@ -12,10 +12,12 @@ namespace {
 
 void add_promise_options(CLI::App& app, PackArguments& a) {
   add_resolution(app, a.resolution);
-  app.add_option("--aspect", a.aspect,
-                 "Shape of the atlas at the area of --resolution N; search: the best of 31 ratios "
-                 "from 1:8 to 8:1; pow2: the best whose sides are powers of two. Default: as "
-                 "--resolution says")
+  app.add_option(
+         "--aspect", a.aspect,
+         "Shape of the atlas at the area of --resolution N; search: the best ratio found "
+         "from 1:8 to 8:1 (of 31, as in the paper; guided also goes on from them to others "
+         "where it separates charts); pow2: the best whose sides are powers of two. Default: as "
+         "--resolution says")
       ->type_name("square|W:H|search|pow2");
   add_choice(app, "--wrap", a.wrap, kWraps,
              "Axes on which charts may wrap around. Default: uv; none for the earlier packers");
@@ -116,6 +118,7 @@ const MethodOption kMethodOptions[] = {
     {"--lambda", {Method::modulo}},
     {"--no-inner", {Method::modulo}},
     {"--all-sides", {Method::zsgs04}},
+    {"--seed", {Method::guided}},
 };
 
 std::vector<Ignored> options_of_other_methods(Method method) {
@@ -143,6 +146,8 @@ Status refuse_useless(const CLI::App& app, const PackArguments& a) {
       {"--margin", wrap == Wrap::uv, "both axes wrap, so there are no sides to keep away from",
        "leave it out, or give --wrap u, v or none"},
       {"--time", a.options.moves > 0, "--moves counts instead", "give one of them"},
+      {"--moves", a.options.pages != 1, "pages are filled by best fit, which counts no moves",
+       "leave it out, or give --time"},
       {"--verbose", a.quiet, "it contradicts --quiet", "give one of them"},
   };
   return refuse_ignored(app, ignored);

@@ -90,9 +90,13 @@ void print_pack_summary(const PackArguments& arguments, const ChartSet& charts,
                         const Packing& packing, const PackOutcome& outcome) {
   const std::string pages =
       packing.pages > 1 ? fmt::format("{} pages of ", packing.pages) : std::string();
-  say("{}: {} on {}{} x {} texels, {:.1f} % in use, {:.2f} s{} -> {}\n", arguments.input,
+  const std::string density =
+      outcome.uv_density > 0
+          ? fmt::format(", {:.4g} texels per unit", packing.scale * outcome.uv_density)
+          : std::string();
+  say("{}: {} on {}{} x {} texels, {:.1f} % in use{}, {:.2f} s{} -> {}\n", arguments.input,
       quantity(charts.charts.size(), "chart"), pages, packing.width, packing.height,
-      100 * packing.efficiency, outcome.total,
+      100 * packing.efficiency, density, outcome.total,
       packing.interrupted ? " (interrupted: the best so far)" : "", arguments.output);
   if (!arguments.verbose) return;
   const PackOptions& options = arguments.options;
@@ -105,9 +109,6 @@ void print_pack_summary(const PackArguments& arguments, const ChartSet& charts,
       packing.raster_seconds, packing.place_seconds);
   say("  {:.1f} % in use if the charts grew in place until two touch\n",
       100 * unpadded_efficiency(charts.charts, packing));
-  if (outcome.uv_density > 0) {
-    say("  {:.6g} texels per unit of surface, in the mean\n", packing.scale * outcome.uv_density);
-  }
   for (std::size_t page = 0; packing.pages > 1 && page < outcome.page_efficiency.size(); ++page) {
     const PageTile tile = page_tile(static_cast<int>(page));
     say("  page {} (tile {}): {:.1f} % in use\n", page,

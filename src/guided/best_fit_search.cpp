@@ -38,7 +38,8 @@ class BestFitSearch {
 
   void find_scale() {
     // Of no use is what is no denser than what another frame or method has come to.
-    double lower = factor_of(record_.efficiency()), upper = 1, likely = kLikely;
+    best_factor_ = found_factor_ = factor_of(record_.efficiency());
+    double lower = best_factor_, upper = 1, likely = kLikely;
     while (!done() && upper - lower > std::min(kTolerance, upper / 10)) {
       std::array<double, kAtOnce> factors{lower + (upper - lower) / 3,
                                           lower + 2 * (upper - lower) / 3};
@@ -154,10 +155,21 @@ class BestFitSearch {
   double best_factor_ = 0, found_factor_ = 0;
 };
 
+/// A packing soon, on a coarse grid: where time is short for so many pages, what is found first is
+/// else far from the best.
+void draft(std::span<const ChartShape> shapes, const PackOptions& options, const Frame& fine,
+           Record& record) {
+  constexpr double kCoarser = 4, kShare = 0.7;
+  const auto frame =
+      make_frame(fine.texture_width, fine.texture_height, kCoarser * fine.cell.x, options);
+  if (frame) BestFitSearch(shapes, options, *frame, record, kShare).find_scale();
+}
+
 }  // namespace
 
 void search_best_fit(std::span<const ChartShape> shapes, const PackOptions& options,
                      std::span<const Frame> frames, Record& record, bool go_on) {
+  if (record.timed() && options.pages > 1) draft(shapes, options, frames.front(), record);
   for (std::size_t i = 0; i < frames.size(); ++i) {
     const double share = static_cast<double>(i + 1) / static_cast<double>(frames.size());
     BestFitSearch search(shapes, options, frames[i], record, share);

@@ -11,6 +11,14 @@ constexpr double kStart = 0.55;  ///< efficiency of the first domain
 constexpr int kLongest = 16;     ///< times CoarseOptions::side: charts and domains up to that
 constexpr double kLeastChance = 1e-3;
 constexpr int kFirstStride = 3;  ///< steps at a time until the first domain that was not filled
+/// Of a domain of any shape: the longest, as in the paper; by what power of two its aspect changes
+/// from one to the next, twice the deviation; failures after which another one is tried.
+constexpr double kMostAspect = 8, kAspectSpread = 0.1;
+constexpr int kTriesOfShape = 4;
+
+double square(double x) { return x * x; }
+double cells(const Domain& domain) { return double(domain.width) * domain.height; }
+double aspect_of(const Domain& domain) { return double(domain.width) / domain.height; }
 
 std::vector<Place> scaled(const std::vector<Place>& places, PieceLibrary& library,
                           const Domain& from, const Domain& to) {
@@ -24,7 +32,8 @@ std::vector<Place> scaled(const std::vector<Place>& places, PieceLibrary& librar
 CoarseSearch::CoarseSearch(std::span<const ChartShape> shapes, Vec2 lengths, bool wraps_x,
                            bool wraps_y, const CoarseOptions& options, std::uint64_t seed)
     : shapes_(shapes),
-      lengths_(lengths),
+      texels_(lengths.x * lengths.y),
+      aspect_(lengths.x / lengths.y),
       wraps_x_(wraps_x),
       wraps_y_(wraps_y),
       options_(options),
@@ -33,7 +42,7 @@ CoarseSearch::CoarseSearch(std::span<const ChartShape> shapes, Vec2 lengths, boo
   cells_per_unit_ = options_.side * std::sqrt(kAimed / area_);
   RasterScale scale;
   scale.cells_per_unit = {cells_per_unit_, cells_per_unit_};
-  scale.growth = options_.grown * options_.side / std::sqrt(lengths_.x * lengths_.y);
+  scale.growth = options_.grown * options_.side / std::sqrt(texels_);
   scale.coverage = Coverage::center;
   library_ =
       std::make_unique<PieceLibrary>(shapes_, scale, options_.angles, kLongest * options_.side);
@@ -43,62 +52,70 @@ CoarseSearch::CoarseSearch(std::span<const ChartShape> shapes, Vec2 lengths, boo
     sum += std::sqrt(std::sqrt(shape.area / area_)) + kLeastChance;
     chances_.push_back(sum);
   }
-  start_step_ = static_cast<int>(std::lround(2 * options_.side * std::sqrt(kAimed / kStart)));
+  first_area_ = double(options_.side) * options_.side * kAimed / kStart;
   begin_anew();
 }
 
 /// All charts anywhere, on a large domain.
 void CoarseSearch::begin_anew() {
-  step_ = step_of_places_ = start_step_;
-  filled_step_ = failures_ = 0;
+  const bool moved = found() && options_.any_shape;
+  domain_ = of_area(first_area_, moved ? aspect_of(best_.domain) : aspect_);
+  filled_.places.clear();
+  failures_ = 0;
   stride_ = kFirstStride;
   near_.clear();
-  const Domain domain = domain_at(step_);
-  places_.clear();
+  from_.domain = domain_;
+  from_.places.clear();
   for (std::size_t i = 0; i < shapes_.size(); ++i) {
-    places_.push_back({random_.below(options_.angles), random_.below(domain.width),
-                       random_.below(domain.height)});
+    from_.places.push_back({random_.below(options_.angles), random_.below(domain_.width),
+                            random_.below(domain_.height)});
   }
 }
 
 void CoarseSearch::begin_with(const Layout& layout) {
-  const double side = cells_per_unit_ * std::sqrt(lengths_.x * lengths_.y) / layout.scale;
+  const double side = cells_per_unit_ / layout.scale;
   constexpr double kRoom = 1.01;  // as the grids differ
-  step_ = step_of_places_ = static_cast<int>(std::ceil(2 * kRoom * side));
-  places_ = to_places(layout, *library_, domain_at(step_));
+  domain_ = of_area(square(kRoom * side) * texels_, aspect_);
+  from_ = {domain_, to_places(layout, *library_, domain_)};
   stride_ = 1;
 }
 
-/// Half steps: every second one takes a column away, the others a row.
-Domain CoarseSearch::domain_at(int step) const {
-  const double aspect = std::sqrt(lengths_.x / lengths_.y);
-  const double columns = (step + 1) / 2, rows = step / 2;  // NOLINT(bugprone-integer-division)
-  return {std::max(1, static_cast<int>(std::lround(columns * aspect))),
-          std::max(1, static_cast<int>(std::lround(rows / aspect))), wraps_x_, wraps_y_};
+/// The domain of the shape nearest to it that has no more cells.
+Domain CoarseSearch::of_area(double area, double aspect) const {
+  const int width = std::max(1, static_cast<int>(std::lround(std::sqrt(area * aspect))));
+  return {width, std::max(1, static_cast<int>(area / width)), wraps_x_, wraps_y_};
+}
+
+/// From now on domains grow wider or narrower by another factor.
+void CoarseSearch::turn() {
+  drift_ = kAspectSpread * (random_.unit() + random_.unit() + random_.unit() - 1.5);
+}
+
+/// Smaller by so many rows or columns, about.
+Domain CoarseSearch::smaller(const Domain& than, int steps) {
+  const double area = (1 - (steps - 0.5) / options_.side) * cells(than);
+  if (!options_.any_shape) return of_area(area, aspect_);
+  const double aspect = aspect_of(than) * std::exp2(drift_);
+  return of_area(area, std::clamp(aspect, 1 / kMostAspect, kMostAspect));
 }
 
 double CoarseSearch::efficiency() const {
   if (!found()) return 0;
-  const Domain domain = domain_at(best_step_);
-  return cells_per_unit_ * cells_per_unit_ * area_ / (double(domain.width) * domain.height);
+  return square(cells_per_unit_) * area_ / cells(best_.domain);
 }
 
-Layout CoarseSearch::best() {
-  const Domain domain = domain_at(best_step_);
+Layout CoarseSearch::best(Vec2 lengths) {
   Layout layout;
-  layout.spots = to_spots(best_places_, *library_, domain);
-  layout.scale =
-      cells_per_unit_ * std::sqrt(lengths_.x * lengths_.y / (double(domain.width) * domain.height));
+  layout.spots = to_spots(best_.places, *library_, best_.domain);
+  layout.scale = cells_per_unit_ * std::sqrt(lengths.x * lengths.y / cells(best_.domain));
   return layout;
 }
 
 void CoarseSearch::adopt(const CoarseSearch& other) {
-  best_step_ = filled_step_ = other.best_step_;
-  best_places_ = filled_places_ = other.best_places_;
-  places_ = best_places_;
-  step_of_places_ = best_step_;
-  step_ = best_step_ - 1;
+  best_ = filled_ = from_ = other.best_;
   stride_ = 1;
+  turn();
+  domain_ = smaller(best_.domain, 1);
   failures_ = 0;
   near_.clear();
 }
@@ -123,7 +140,7 @@ void CoarseSearch::keep_near(std::int64_t overlap, const std::vector<Place>& pla
   const auto at =
       std::upper_bound(near_.begin(), near_.end(), overlap,
                        [](std::int64_t cells, const Near& near) { return cells < near.overlap; });
-  near_.insert(at, {overlap, places});
+  near_.insert(at, {overlap, {domain_, places}});
 }
 
 /// After a domain was not filled: mostly to one of the layouts that came close to filling it,
@@ -131,9 +148,7 @@ void CoarseSearch::keep_near(std::int64_t overlap, const std::vector<Place>& pla
 void CoarseSearch::retreat() {
   const double u = random_.unit();
   const auto chosen = static_cast<std::size_t>(u * u * static_cast<double>(near_.size() + 1));
-  const bool close = chosen < near_.size();
-  places_ = close ? near_[chosen].places : filled_places_;
-  step_of_places_ = close ? step_ : filled_step_;
+  from_ = chosen < near_.size() ? near_[chosen].attempt : filled_;
 }
 
 /// The larger, the likelier.
@@ -164,45 +179,44 @@ void CoarseSearch::run(Effort& effort, bool until_stuck) {
   SeparateOptions options;
   options.stall_rounds = until_stuck ? options_.hasty_rounds : options_.stall_rounds;
   options.effort = &effort;
-  while (step_ > 1 && !effort.spent()) {
+  const double most = square(kLongest * options_.side);
+  while (cells(domain_) > 1 && cells(domain_) <= most && !effort.spent()) {
     effort.count_move();  // of one chart no move may ever be needed
-    const Domain domain = domain_at(step_);
-    std::vector<Place> places = scaled(places_, *library_, domain_at(step_of_places_), domain);
+    std::vector<Place> places = scaled(from_.places, *library_, from_.domain, domain_);
     bool filled = false;
-    if (fit_angles(domain, places)) {
-      Separator separator(*library_, domain, random_);
+    if (fit_angles(domain_, places)) {
+      Separator separator(*library_, domain_, random_);
       filled = separator.run(places, options);
       if (!filled) keep_near(separator.least(), places);
     }
     if (filled) {
-      filled_step_ = step_of_places_ = step_;
-      filled_places_ = places_ = places;
+      filled_ = from_ = {domain_, places};
       failures_ = 0;
       near_.clear();
-      if (best_step_ == 0 || step_ < best_step_) {
-        best_step_ = step_;
-        best_places_ = places;
-      }
-      step_ -= stride_;
+      if (!found() || cells(domain_) < cells(best_.domain)) best_ = filled_;
+      domain_ = smaller(domain_, stride_);
       continue;
     }
     if (effort.spent()) break;
-    if (filled_step_ == 0) {  // a hard set: more room
-      step_ += 1 + step_ / 20;
+    if (filled_.places.empty()) {  // a hard set: more room
+      constexpr double kMore = 1.1;
+      from_ = {domain_, places};
       near_.clear();
-      if (step_ > 2 * kLongest * options_.side) return;
-      start_step_ = std::max(start_step_, step_);
-      places_ = places;
-      step_of_places_ = step_;
+      first_area_ = kMore * cells(domain_);
+      domain_ = of_area(first_area_, aspect_);
       continue;
     }
-    stride_ = 1;
     if (++failures_ > options_.patience) {
       begin_anew();
       continue;
     }
+    if (stride_ > 1 || failures_ % kTriesOfShape == 0) {
+      turn();
+      domain_ = smaller(filled_.domain, 1);
+    }
+    stride_ = 1;
     retreat();
-    disturb(places_, domain_at(step_of_places_));
+    disturb(from_.places, from_.domain);
     if (until_stuck) break;
   }
 }

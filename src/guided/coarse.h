@@ -18,8 +18,9 @@ struct CoarseOptions {
   int angles = 128;  ///< that a chart can have; divides kAngleSteps
   double grown = 0;  ///< texels by which charts are grown
   int stall_rounds = 100;
-  int hasty_rounds = 40;  ///< instead, where it is to run until it is stuck
-  int patience = 40;      ///< disturbances that lead to nothing before it begins anew
+  int hasty_rounds = 40;   ///< instead, where it is to run until it is stuck
+  int patience = 40;       ///< disturbances that lead to nothing before it begins anew
+  bool any_shape = false;  ///< of domain: the search begins with the one given, and may leave it
 };
 
 /// One line of search on one shape of domain.
@@ -35,16 +36,31 @@ class CoarseSearch {
   /// where no domain is large enough, for charts very long beside their area.
   void run(Effort& effort, bool until_stuck);
 
-  [[nodiscard]] bool found() const { return best_step_ > 0; }
-  /// The densest layout so far. Precondition: found().
-  [[nodiscard]] Layout best();
+  [[nodiscard]] bool found() const { return !best_.places.empty(); }
+  /// The smallest domain filled so far. Precondition: found().
+  [[nodiscard]] const Domain& best_domain() const { return best_.domain; }
+  /// The densest layout so far, for a domain of the shape of the best. `lengths`: of that domain,
+  /// texels. Precondition: found().
+  [[nodiscard]] Layout best(Vec2 lengths);
   /// Share of the domain that its charts cover, an estimate.
   [[nodiscard]] double efficiency() const;
   /// Takes over a layout of the same charts and shape of domain.
   void adopt(const CoarseSearch& other);
 
  private:
-  [[nodiscard]] Domain domain_at(int step) const;
+  /// Where charts lie on a domain.
+  struct Attempt {
+    Domain domain;
+    std::vector<Place> places;
+  };
+  struct Near {
+    std::int64_t overlap;  ///< cells
+    Attempt attempt;
+  };
+
+  [[nodiscard]] Domain of_area(double area, double aspect) const;
+  void turn();
+  [[nodiscard]] Domain smaller(const Domain& than, int steps);
   [[nodiscard]] bool fit_angles(const Domain& domain, std::vector<Place>& places);
   void begin_anew();
   void keep_near(std::int64_t overlap, const std::vector<Place>& places);
@@ -53,29 +69,24 @@ class CoarseSearch {
   void disturb(std::vector<Place>& places, const Domain& domain);
 
   std::span<const ChartShape> shapes_;
-  Vec2 lengths_;
+  double texels_;  ///< of the domain
+  double aspect_;  ///< of the domain, width by height
   bool wraps_x_, wraps_y_;
   CoarseOptions options_;
   double cells_per_unit_ = 0, area_ = 0;
   std::unique_ptr<PieceLibrary> library_;
   Random random_;
-  int step_ = 0;  ///< size of the domain now tried: columns and rows of a square of its area
-  int step_of_places_ = 0;
-  int start_step_ = 0;  ///< of the first domain
-  int stride_ = 1;      ///< steps from one domain to the next
-  int failures_ = 0;    ///< since a domain was filled
-  std::vector<Place> places_;
-  int filled_step_ = 0;  ///< smallest domain filled since it began anew; 0: none
-  std::vector<Place> filled_places_;
-  /// Of the domain now tried: the layouts that did not fill it, that of least overlap first.
-  struct Near {
-    std::int64_t overlap;  ///< cells
-    std::vector<Place> places;
-  };
+  double first_area_ = 0;  ///< of the first domain, cells
+  Domain domain_;          ///< now tried
+  Attempt from_;           ///< what is tried on it
+  double drift_ = 0;       ///< of the aspect from one domain to the next, log2
+  int stride_ = 1;         ///< steps from one domain to the next
+  int failures_ = 0;       ///< since a domain was filled
+  Attempt filled_;         ///< the smallest domain since it began anew; without places: none
+  /// The layouts that did not fill a domain a step smaller, that of least overlap first.
   std::vector<Near> near_;
   std::vector<double> chances_;  ///< of charts to be disturbed, each with those before it
-  int best_step_ = 0;            ///< smallest domain ever filled; 0: none
-  std::vector<Place> best_places_;
+  Attempt best_;                 ///< the smallest domain ever; without places: none
 };
 
 }  // namespace wrapatlas

@@ -31,28 +31,6 @@ double fine_cell(const PackOptions& options, std::size_t charts) {
   return std::max(1.0, double(longest) / finest);
 }
 
-/// Turned by a right angle, charts fill a shape of atlas as well as its mirror image, unless only
-/// one of its axes wraps: of such two the second is left out, or the one that `begun`, a packing to
-/// go on from, is not on.
-std::vector<Frame> without_mirrored(const std::vector<Frame>& frames, Wrap wrap,
-                                    const std::optional<Packing>& begun) {
-  if (wraps_u(wrap) != wraps_v(wrap)) return frames;
-  std::vector<Frame> kept;
-  for (const Frame& frame : frames) {
-    const auto mirrored = std::find_if(kept.begin(), kept.end(), [&](const Frame& other) {
-      return other.texture_width == frame.texture_height &&
-             other.texture_height == frame.texture_width;
-    });
-    if (mirrored == kept.end()) {
-      kept.push_back(frame);
-    } else if (begun && begun->width == frame.texture_width &&
-               begun->height == frame.texture_height) {
-      *mirrored = frame;
-    }
-  }
-  return kept;
-}
-
 /// Charts may be the pieces of one sheet: if all of them fit together they are packed like that.
 void search_assembly(std::span<const ChartShape> shapes, const PackOptions& options,
                      std::span<const Frame> frames, Record& record) {
@@ -100,9 +78,10 @@ void separate_few(Task& task) {
   if (task.record.best() && task.record.best()->interrupted) return;
   task.frames = without_mirrored(task.frames, task.options.wrap, task.record.best());
   const std::vector<ChartShape> shapes = make_shapes(task.charts);
-  // With so little time separation may come to nothing.
-  constexpr double kShort = 0.5;
-  if (task.record.timed() && task.options.time < kShort) {
+  // With so little time for so many charts separation may come to nothing.
+  constexpr double kShort = 0.5, kShortPerChart = 0.015;  // seconds
+  const double enough = std::max(kShort, kShortPerChart * static_cast<double>(shapes.size()));
+  if (task.record.timed() && task.options.time < enough) {
     search_best_fit(shapes, task.options, task.frames, task.record, false);
   }
   search_assembly(shapes, task.options, task.frames, task.record);

@@ -5,6 +5,7 @@
 #include <functional>
 #include <numeric>
 
+#include "pack/aspects.h"
 #include "pack/parallel.h"
 
 namespace wrapatlas {
@@ -22,23 +23,28 @@ constexpr double kShapesShare = 0.5;  ///< of the time, to choose among shapes o
 /// Left for the last refinement: this share of the time, but no more than so many seconds.
 constexpr double kRefineShare = 0.1, kRefineSeconds = 0.5;
 
+Vec2 lengths_of(const Frame& frame) {
+  return {frame.width * frame.cell.x, frame.height * frame.cell.y};
+}
+
 }  // namespace
 
 Lines::Lines(std::span<const ChartShape> shapes, const PackOptions& options,
              std::span<const Frame> frames, Record& record)
     : shapes_(shapes), options_(options), record_(record), moves_left_(options.moves) {
-  const std::size_t count = frames.size() > 1 ? frames.size() : lines_wanted();
-  for (std::size_t i = 0; i < count; ++i) {
+  begun_ = frames.size() > 1 ? frames.size() : lines_wanted();
+  for (std::size_t i = 0; i < begun_; ++i) {
     const Frame& frame = frames[i % frames.size()];
     CoarseOptions coarse;
     coarse.side = coarse_side(shapes.size());
+    coarse.any_shape = any_shape();
     coarse.grown = options.padding / 2 + 0.3 * frame.cell.x;
-    const Vec2 lengths{frame.width * frame.cell.x, frame.height * frame.cell.y};
     const std::uint64_t seed = options.seed * 1000003 + i;
-    lines_.push_back(std::make_unique<Line>(Line{
-        &frame, i,
-        CoarseSearch(shapes, lengths, wraps_u(options.wrap), wraps_v(options.wrap), coarse, seed),
-        Random(seed ^ 0xf1e2d3c4)}));
+    lines_.push_back(
+        std::make_unique<Line>(Line{&frame, i,
+                                    CoarseSearch(shapes, lengths_of(frame), wraps_u(options.wrap),
+                                                 wraps_v(options.wrap), coarse, seed),
+                                    Random(seed ^ 0xf1e2d3c4)}));
   }
 }
 
@@ -64,11 +70,22 @@ void Lines::each_line(Job job) {
                [&](std::size_t i) { job(*lines_[i]); });
 }
 
+/// The grid for the line's best layout.
+Frame Lines::frame_of(const Line& line) const {
+  if (!any_shape()) return *line.frame;
+  const Domain& domain = line.coarse.best_domain();
+  const double aspect = double(domain.width) / domain.height;
+  auto frame = frame_of_aspect(options_, line.frame->cell.x, aspect);
+  return frame ? *frame : *line.frame;
+}
+
 void Lines::improve(Line& line, Effort& effort) {
   if (!line.coarse.found() || line.coarse.efficiency() <= line.refined) return;
   line.refined = line.coarse.efficiency();
-  auto fine = refine(shapes_, *line.frame, options_, line.coarse.best(), {}, effort, line.random);
-  if (fine) record_.offer(std::move(*fine), 1 + line.offers++ * lines_.size() + line.number);
+  const Frame frame = frame_of(line);
+  const Layout layout = line.coarse.best(lengths_of(frame));
+  auto fine = refine(shapes_, frame, options_, layout, {}, effort, line.random);
+  if (fine) record_.offer(std::move(*fine), 1 + line.offers++ * begun_ + line.number);
 }
 
 /// Lets every line search in the given part of the whole time, an equal part each; or, of the moves
@@ -101,7 +118,8 @@ void Lines::share_best() {
       lines_.begin(), lines_.end(),
       [](const auto& a, const auto& b) { return a->coarse.efficiency() < b->coarse.efficiency(); });
   for (const auto& line : lines_) {
-    if (line->frame == best->frame && line->coarse.efficiency() < best->coarse.efficiency()) {
+    const bool alike = any_shape() || line->frame == best->frame;
+    if (alike && line->coarse.efficiency() < best->coarse.efficiency()) {
       line->coarse.adopt(best->coarse);
     }
   }

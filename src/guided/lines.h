@@ -14,7 +14,8 @@ namespace wrapatlas {
 
 class Lines {
  public:
-  /// One line for each of several frames; for one frame as many as can run at once.
+  /// One line for each of several frames; for one frame as many as can run at once. With
+  /// Aspect::search a line begins on the shape of its frame, and goes on to any other.
   Lines(std::span<const ChartShape> shapes, const PackOptions& options,
         std::span<const Frame> frames, Record& record);
 
@@ -25,7 +26,7 @@ class Lines {
 
  private:
   struct Line {
-    const Frame* frame;
+    const Frame* frame;  ///< that it begins on
     std::size_t number;
     CoarseSearch coarse;
     Random random;
@@ -35,6 +36,8 @@ class Lines {
   template <typename Job>
   void each_line(Job job);
   void spend(double from, double to, bool until_stuck);
+  [[nodiscard]] bool any_shape() const { return options_.aspect == Aspect::search; }
+  [[nodiscard]] Frame frame_of(const Line& line) const;
   void improve(Line& line, Effort& effort);
   void keep_best(std::size_t count);
   void share_best();
@@ -45,6 +48,7 @@ class Lines {
   const PackOptions& options_;
   Record& record_;
   std::int64_t moves_left_;
+  std::size_t begun_ = 0;  ///< lines at first
   std::vector<std::unique_ptr<Line>> lines_;
 };
 

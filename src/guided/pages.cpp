@@ -170,7 +170,8 @@ Error too_many_pages(const Packing& packing, const PackOptions& options) {
   const double smaller = std::sqrt(double(options.pages) / packing.pages);
   return no_packing(
       "",
-      fmt::format("at this density {} do not hold the charts", pages_text(options.pages, options)),
+      fmt::format("at this density {} {} not hold the charts", pages_text(options.pages, options),
+                  options.pages == 1 ? "does" : "do"),
       fmt::format("{} do; so would {}, roughly, at {:.2g} times the density", packing.pages,
                   options.pages, smaller));
 }

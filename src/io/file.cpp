@@ -84,6 +84,19 @@ Status move_into_place(const StagedFile& file) {
   return error;
 }
 
+/// What is there and is no regular file (a device, a pipe) is written to as it is.
+bool written_in_place(const std::filesystem::path& path) {
+  std::error_code ignored;
+  const auto kind = std::filesystem::status(path, ignored).type();
+  return kind != std::filesystem::file_type::not_found &&
+         kind != std::filesystem::file_type::regular;
+}
+
+Error cannot_begin(const std::filesystem::path& path) {
+  return system_error(ErrorKind::output, path, "cannot write",
+                      "check that the folder exists and is writable");
+}
+
 }  // namespace
 
 Result<std::string> read_file(const std::filesystem::path& path) {
@@ -117,16 +130,29 @@ bool same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
   return !place_a.empty() && place_a == place(b);
 }
 
+Status check_writable(const std::filesystem::path& path) {
+  if (written_in_place(path)) {
+    std::error_code ignored;
+    const bool folder = std::filesystem::is_directory(path, ignored);
+    if (!folder && ::access(path.c_str(), W_OK) == 0) return Done{};
+    if (folder) errno = EISDIR;
+    return cannot_begin(path);
+  }
+  std::string temporary;
+  const int descriptor = create_beside(path, temporary);
+  if (descriptor < 0) return cannot_begin(path);
+  ::close(descriptor);
+  ::unlink(temporary.c_str());
+  return Done{};
+}
+
 Status write_file(const std::filesystem::path& path, std::string_view bytes) {
   return write_file(path, [bytes](const PutBytes& put) { return put(bytes); });
 }
 
 Status write_file(const std::filesystem::path& path,
                   const std::function<Status(const PutBytes&)>& produce) {
-  std::error_code ignored;
-  const auto kind = std::filesystem::status(path, ignored).type();
-  const bool in_place =
-      kind != std::filesystem::file_type::not_found && kind != std::filesystem::file_type::regular;
+  const bool in_place = written_in_place(path);
   const auto is_path = [&](const StagedFile& file) { return same_file(file.path, path); };
   if (staging && !in_place && std::any_of(staged.begin(), staged.end(), is_path)) {
     return Error{ErrorKind::usage, path.string(), "two outputs have this name",
@@ -135,10 +161,7 @@ Status write_file(const std::filesystem::path& path,
   std::string temporary = path.string();
   const int descriptor =
       in_place ? ::open(path.c_str(), O_WRONLY | O_CLOEXEC) : create_beside(path, temporary);
-  if (descriptor < 0) {
-    return system_error(ErrorKind::output, path, "cannot write",
-                        "check that the folder exists and is writable");
-  }
+  if (descriptor < 0) return cannot_begin(path);
   Status written = Done{};
   try {
     written = produce(

@@ -18,6 +18,9 @@ Result<std::string> read_file(const std::filesystem::path& path);
 /// was. A path that exists and is no regular file (/dev/stdout, a pipe) is written to directly.
 Status write_file(const std::filesystem::path& path, std::string_view bytes);
 
+/// Whether write_file could begin: to be asked before long work. Error: output, the same as its.
+Status check_writable(const std::filesystem::path& path);
+
 /// Whether both paths lead to one place, also where there is nothing yet. A matter of names and
 /// symbolic links: hard links are places of their own, since write_file parts them.
 bool same_file(const std::filesystem::path& a, const std::filesystem::path& b);

@@ -52,7 +52,7 @@ class Surroundings(support.CommandTest):
 
     def test_unknown_output_ending(self):
         for name in ("b.fbx", "b", "b.png"):
-            self.refuse_pack(2, (name, ".glb"), "a.obj", output=name)
+            self.refuse_pack(2, (name, "write .obj, .ply, .gltf or .glb"), "a.obj", output=name)
 
     def test_formats_without_uvs_as_output(self):
         for name in ("b.stl", "b.off"):
@@ -66,6 +66,11 @@ class Surroundings(support.CommandTest):
                 self.refuse(3, (bad, "cannot write"), *good, "-o", bad + ".gltf")
         self.path("folder.obj").mkdir()
         self.refuse(3, ("folder.obj", "cannot write"), *good, "-o", "folder.obj")
+
+    def test_outputs_are_tried_before_the_search(self):
+        for outputs in (("-o", "none/b.obj"), ("-o", "b.obj", "--image", "none/b.png"),
+                        ("-o", "b.obj", "--json", "none/b.json")):
+            self.refuse(3, ("none/b", "cannot write"), "pack", "a.obj", "--time", "1000", *outputs)
 
     def test_unwritable_folder(self):
         if os.geteuid() == 0:

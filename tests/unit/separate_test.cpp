@@ -129,7 +129,7 @@ TEST(CoarseSearch, ItsBestLayoutIsOneAndGetsNoWorse) {
       ASSERT_TRUE(search.found());
       EXPECT_GE(search.efficiency(), last);
       last = search.efficiency();
-      const Layout layout = search.best();
+      const Layout layout = search.best(lengths);
       EXPECT_NEAR(layout.scale * layout.scale * total_area(shapes), last * lengths.x * lengths.y,
                   1e-6 * lengths.x * lengths.y);
       ASSERT_EQ(layout.spots.size(), shapes.size());
@@ -144,6 +144,32 @@ TEST(CoarseSearch, ItsBestLayoutIsOneAndGetsNoWorse) {
     other.run(effort, false);
     EXPECT_GE(other.efficiency(), last);
   }
+}
+
+/// Two bars fill a domain of 2:1 between them, and half a square.
+TEST(CoarseSearch, LeavesTheShapeItBeganWithWhereThatIsBetter) {
+  const auto shapes = make_shapes(std::vector<Chart>(2, test::rectangle(1, 0.25)));
+  double efficiency[2];
+  for (const bool any : {false, true}) {
+    CoarseOptions options;
+    options.side = 64;
+    options.any_shape = any;
+    CoarseSearch search(shapes, {70, 70}, false, false, options, 1);
+    Effort effort(nullptr);
+    effort.moves(10000);
+    search.run(effort, false);
+    ASSERT_TRUE(search.found());
+    efficiency[any ? 1 : 0] = search.efficiency();
+    const Domain& domain = search.best_domain();
+    const double aspect = double(domain.width) / domain.height;
+    EXPECT_LT(std::abs(std::log(aspect)), any ? 2.1 : 0.03);
+    const Vec2 lengths{70 * std::sqrt(aspect), 70 / std::sqrt(aspect)};
+    const Layout layout = search.best(lengths);
+    EXPECT_NEAR(layout.scale * layout.scale * total_area(shapes), search.efficiency() * 4900, 1);
+    EXPECT_LT(overlapping_share(shapes, layout, lengths, 0), 0.01);
+  }
+  EXPECT_LT(efficiency[0], 0.6);
+  EXPECT_GT(efficiency[1], 0.95);
 }
 
 TEST(CoarseSearch, OfOneChartMovesComeToAnEnd) {

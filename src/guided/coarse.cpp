@@ -75,7 +75,8 @@ void CoarseSearch::begin_anew() {
 void CoarseSearch::begin_with(const Layout& layout) {
   const double side = cells_per_unit_ / layout.scale;
   constexpr double kRoom = 1.01;  // as the grids differ
-  domain_ = of_area(square(kRoom * side) * texels_, aspect_);
+  const double largest = 2 * square(kLongest * options_.side);
+  domain_ = of_area(std::min(square(kRoom * side) * texels_, largest), aspect_);
   from_ = {domain_, to_places(layout, *library_, domain_)};
   stride_ = 1;
 }
@@ -113,6 +114,7 @@ Layout CoarseSearch::best(Vec2 lengths) {
 
 void CoarseSearch::adopt(const CoarseSearch& other) {
   best_ = filled_ = from_ = other.best_;
+  gave_up_ = false;
   stride_ = 1;
   turn();
   domain_ = smaller(best_.domain, 1);
@@ -179,8 +181,7 @@ void CoarseSearch::run(Effort& effort, bool until_stuck) {
   SeparateOptions options;
   options.stall_rounds = until_stuck ? options_.hasty_rounds : options_.stall_rounds;
   options.effort = &effort;
-  const double most = square(kLongest * options_.side);
-  while (cells(domain_) > 1 && cells(domain_) <= most && !effort.spent()) {
+  while (!gave_up_ && cells(domain_) > 1 && !effort.spent()) {
     effort.count_move();  // of one chart no move may ever be needed
     std::vector<Place> places = scaled(from_.places, *library_, from_.domain, domain_);
     bool filled = false;
@@ -203,6 +204,7 @@ void CoarseSearch::run(Effort& effort, bool until_stuck) {
       from_ = {domain_, places};
       near_.clear();
       first_area_ = kMore * cells(domain_);
+      gave_up_ = first_area_ > square(kLongest * options_.side);
       domain_ = of_area(first_area_, aspect_);
       continue;
     }

@@ -81,6 +81,7 @@ class CoarseSearch {
   Attempt from_;           ///< what is tried on it
   double drift_ = 0;       ///< of the aspect from one domain to the next, log2
   int stride_ = 1;         ///< steps from one domain to the next
+  bool gave_up_ = false;   ///< no domain was large enough
   int failures_ = 0;       ///< since a domain was filled
   Attempt filled_;         ///< the smallest domain since it began anew; without places: none
   /// The layouts that did not fill a domain a step smaller, that of least overlap first.

@@ -19,7 +19,7 @@ double angle_between(double a, double b) { return std::remainder(a - b, 2 * std:
 
 /// Sides of an atlas of a frame's shape that has the area of all charts.
 Vec2 sides_of(const Frame& frame, double area) {
-  const double aspect = std::sqrt(frame.width * frame.cell.x / (frame.height * frame.cell.y));
+  const double aspect = std::sqrt(frame.lengths().x / frame.lengths().y);
   return {std::sqrt(area) * aspect, std::sqrt(area) / aspect};
 }
 
@@ -187,7 +187,7 @@ std::optional<Assembly> assemble(std::span<const ChartShape> shapes, std::span<c
   auto layout = lay_out(groups, points_of(groups, group, shapes), shapes, sides, options.wrap);
   if (!layout) return {};
   result.layout = std::move(*layout);
-  result.layout.scale = frame.width * frame.cell.x / sides.x;
+  result.layout.scale = frame.lengths().x / sides.x;
   return result;
 }
 

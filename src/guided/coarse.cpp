@@ -87,7 +87,7 @@ Domain CoarseSearch::of_area(double area, double aspect) const {
   return {width, std::max(1, static_cast<int>(area / width)), wraps_x_, wraps_y_};
 }
 
-/// From now on domains grow wider or narrower by another factor.
+/// From now on domains grow wider or narrower by another factor. The first descent keeps its shape.
 void CoarseSearch::turn() {
   drift_ = kAspectSpread * (random_.unit() + random_.unit() + random_.unit() - 1.5);
 }
@@ -104,6 +104,8 @@ double CoarseSearch::efficiency() const {
   if (!found()) return 0;
   return square(cells_per_unit_) * area_ / cells(best_.domain);
 }
+
+double CoarseSearch::best_aspect() const { return aspect_of(best_.domain); }
 
 Layout CoarseSearch::best(Vec2 lengths) {
   Layout layout;

@@ -37,8 +37,8 @@ class CoarseSearch {
   void run(Effort& effort, bool until_stuck);
 
   [[nodiscard]] bool found() const { return !best_.places.empty(); }
-  /// The smallest domain filled so far. Precondition: found().
-  [[nodiscard]] const Domain& best_domain() const { return best_.domain; }
+  /// Width by height of the smallest domain filled so far. Precondition: found().
+  [[nodiscard]] double best_aspect() const;
   /// The densest layout so far, for a domain of the shape of the best. `lengths`: of that domain,
   /// texels. Precondition: found().
   [[nodiscard]] Layout best(Vec2 lengths);

@@ -20,14 +20,13 @@ int cell_of(double centre, double piece_centre, int size, int length, bool wraps
 Layout to_layout(const Packing& packing, std::span<const ChartShape> shapes, const Frame& frame) {
   Layout layout;
   layout.scale = packing.scale;
+  const Vec2 lengths = frame.lengths();
   for (std::size_t i = 0; i < shapes.size(); ++i) {
     const double turns =
         (packing.placements[i].angle - shapes[i].base_angle) / (2 * std::numbers::pi);
     const int angle = modulo(static_cast<int>(std::lround(turns * kAngleSteps)), kAngleSteps);
     const Vec2 centre = packing.transform(i).apply(shapes[i].raster.centre) - frame.origin;
-    layout.spots.push_back(
-        {angle,
-         {centre.x / (frame.width * frame.cell.x), centre.y / (frame.height * frame.cell.y)}});
+    layout.spots.push_back({angle, {centre.x / lengths.x, centre.y / lengths.y}});
   }
   return layout;
 }

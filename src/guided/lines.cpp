@@ -23,10 +23,6 @@ constexpr double kShapesShare = 0.5;  ///< of the time, to choose among shapes o
 /// Left for the last refinement: this share of the time, but no more than so many seconds.
 constexpr double kRefineShare = 0.1, kRefineSeconds = 0.5;
 
-Vec2 lengths_of(const Frame& frame) {
-  return {frame.width * frame.cell.x, frame.height * frame.cell.y};
-}
-
 }  // namespace
 
 Lines::Lines(std::span<const ChartShape> shapes, const PackOptions& options,
@@ -42,7 +38,7 @@ Lines::Lines(std::span<const ChartShape> shapes, const PackOptions& options,
     const std::uint64_t seed = options.seed * 1000003 + i;
     lines_.push_back(
         std::make_unique<Line>(Line{&frame, i,
-                                    CoarseSearch(shapes, lengths_of(frame), wraps_u(options.wrap),
+                                    CoarseSearch(shapes, frame.lengths(), wraps_u(options.wrap),
                                                  wraps_v(options.wrap), coarse, seed),
                                     Random(seed ^ 0xf1e2d3c4)}));
   }
@@ -73,9 +69,7 @@ void Lines::each_line(Job job) {
 /// The grid for the line's best layout.
 Frame Lines::frame_of(const Line& line) const {
   if (!any_shape()) return *line.frame;
-  const Domain& domain = line.coarse.best_domain();
-  const double aspect = double(domain.width) / domain.height;
-  auto frame = frame_of_aspect(options_, line.frame->cell.x, aspect);
+  const auto frame = frame_of_aspect(options_, line.frame->cell.x, line.coarse.best_aspect());
   return frame ? *frame : *line.frame;
 }
 
@@ -83,7 +77,7 @@ void Lines::improve(Line& line, Effort& effort) {
   if (!line.coarse.found() || line.coarse.efficiency() <= line.refined) return;
   line.refined = line.coarse.efficiency();
   const Frame frame = frame_of(line);
-  const Layout layout = line.coarse.best(lengths_of(frame));
+  const Layout layout = line.coarse.best(frame.lengths());
   auto fine = refine(shapes_, frame, options_, layout, {}, effort, line.random);
   if (fine) record_.offer(std::move(*fine), 1 + line.offers++ * begun_ + line.number);
 }

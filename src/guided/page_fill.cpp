@@ -135,7 +135,7 @@ bool fits_alone(const PageTask& task, std::size_t chart, double scale) {
 
 /// No chart of this extent (in input units, from the middle of its box) is ever too large.
 double harmless_radius(const Frame& frame, double scale) {
-  const Vec2 texels{frame.width * frame.cell.x, frame.height * frame.cell.y};
+  const Vec2 texels = frame.lengths();
   const double border = (frame.growth + 1) * std::max(frame.cell.x, frame.cell.y);
   return (std::min(texels.x, texels.y) / 2 - border) / scale;
 }

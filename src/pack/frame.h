@@ -18,6 +18,8 @@ struct Frame {
   Vec2 origin;                                ///< texels
   double growth = 0;                          ///< cells by which charts are grown
 
+  /// Texels that the cells cover.
+  [[nodiscard]] Vec2 lengths() const { return {width * cell.x, height * cell.y}; }
   [[nodiscard]] double texels() const { return double(texture_width) * texture_height; }
 };
 

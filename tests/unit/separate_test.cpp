@@ -160,8 +160,7 @@ TEST(CoarseSearch, LeavesTheShapeItBeganWithWhereThatIsBetter) {
     search.run(effort, false);
     ASSERT_TRUE(search.found());
     efficiency[any ? 1 : 0] = search.efficiency();
-    const Domain& domain = search.best_domain();
-    const double aspect = double(domain.width) / domain.height;
+    const double aspect = search.best_aspect();
     EXPECT_LT(std::abs(std::log(aspect)), any ? 2.1 : 0.03);
     const Vec2 lengths{70 * std::sqrt(aspect), 70 / std::sqrt(aspect)};
     const Layout layout = search.best(lengths);

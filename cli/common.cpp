@@ -98,13 +98,18 @@ ProgressLine::~ProgressLine() {
 }
 
 void ProgressLine::show(const Progress& progress) {
+  std::string text = fmt::format("packing {:3.0f} %", 100 * progress.fraction);
+  if (progress.best_efficiency > 0) {
+    text +=
+        fmt::format(", best so far {:.1f} % of the atlas in use", 100 * progress.best_efficiency);
+  }
+  show(text + " (Ctrl-C keeps the best)");
+}
+
+void ProgressLine::show(const std::string& text) {
   if (!active_) return;
   shown_ = true;
-  say("\rpacking {:3.0f} %", 100 * progress.fraction);
-  if (progress.best_efficiency > 0) {
-    say(", best so far {:.1f} % of the atlas in use", 100 * progress.best_efficiency);
-  }
-  say(" (Ctrl-C keeps the best)");
+  say("\r\033[K{}", text);
   std::fflush(stderr);
 }
 

@@ -46,6 +46,7 @@ struct Command {
 Command make_pack_command(CLI::App& parser);
 Command make_check_command(CLI::App& parser);
 Command make_info_command(CLI::App& parser);
+Command make_unwrap_command(CLI::App& parser);
 
 /// Writes the object to a file, or to standard output for "-".
 Status write_json(const std::string& path, const Json& object);
@@ -65,6 +66,7 @@ class ProgressLine {
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
   void show(const Progress& progress);
+  void show(const std::string& text);
 
  private:
   bool active_;

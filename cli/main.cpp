@@ -14,7 +14,8 @@ namespace {
 int run(int argc, char** argv) {
   using namespace wrapatlas::cli;
   CLI::App parser{
-      "wrapatlas packs texture atlases on the torus: charts may wrap around the atlas border.\n"
+      "wrapatlas cuts meshes into charts and packs them into texture atlases on the torus: charts\n"
+      "may wrap around the atlas border.\n"
       "Exit status: 0 done; 1 a check failed; 2 usage; 3 unusable input or output;\n"
       "4 no packing found; 130 interrupted."};
   parser.name("wrapatlas");
@@ -28,15 +29,16 @@ int run(int argc, char** argv) {
       "A first try:\n"
       "  wrapatlas info model.glb\n"
       "  wrapatlas pack model.glb -o packed.glb --resolution 2048 --padding 4 --image atlas.png\n"
+      "  wrapatlas unwrap bare.obj -o unwrapped.obj --image atlas.png\n"
       "  wrapatlas check packed.glb --ref model.glb --resolution 2048 --padding 4 --wrap uv");
 
   const Command commands[] = {make_pack_command(parser), make_check_command(parser),
-                              make_info_command(parser)};
+                              make_info_command(parser), make_unwrap_command(parser)};
   if (argc > 1 && argv[1][0] != '-' &&
       std::none_of(std::begin(commands), std::end(commands),
                    [&](const Command& command) { return command.app->get_name() == argv[1]; })) {
     return report_error({wrapatlas::ErrorKind::usage, argv[1], "no such command",
-                         "use pack, check or info; wrapatlas --help says more"});
+                         "use unwrap, pack, check or info; wrapatlas --help says more"});
   }
   try {
     parser.parse(argc, argv);

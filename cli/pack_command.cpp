@@ -1,141 +1,9 @@
 // wrapatlas pack: read a model, pack its charts, check the result, write it.
 
-#include <fmt/format.h>
-
-#include <cmath>
-#include <optional>
-
-#include "io/file.h"
-#include "output_paths.h"
-#include "pack_report.h"
-#include "wrapatlas/atlas.h"
-#include "wrapatlas/validate.h"
+#include "packing_run.h"
 
 namespace wrapatlas::cli {
 namespace {
-
-Error inside_input(const PackArguments& arguments, Error error) {
-  error.where = arguments.input + (error.where.empty() ? "" : ": " + error.where);
-  return error;
-}
-
-std::optional<Error> check_result(const PackArguments& arguments, const Model& model,
-                                  const AtlasMesh& atlas, const Packing& packing,
-                                  PackOutcome& outcome) {
-  const double start = seconds_now();
-  CheckOptions options;
-  options.width = packing.width;
-  options.height = packing.height;
-  // A cut atlas must hold without any wrapping; charts reach the sides that they were cut at.
-  const bool cut = arguments.export_mode == Export::cut;
-  options.wrap = cut ? Wrap::none : packing.wrap;
-  options.cut = cut ? packing.wrap : Wrap::none;
-  options.padding = arguments.options.padding;
-  options.margin = arguments.margin_in_force();
-  options.stacked_ok = arguments.stacked == Stacked::keep;
-  options.pages = packing.pages;
-  options.v_points_down = model.v_points_down;
-  options.threads = arguments.options.threads;
-  const auto report = check_atlas(apply_atlas(model.mesh, atlas), &model.mesh, options);
-  outcome.validate = seconds_now() - start;
-  if (!report) return inside_input(arguments, report.error());
-  outcome.valid = report->ok();
-  if (report->ok()) return std::nullopt;
-  const std::string first = report->findings.empty() ? "" : ": " + report->findings.front().text;
-  return Error{
-      ErrorKind::check, arguments.input,
-      fmt::format("the finished atlas breaks {}{}", quantity(report->violations, "promise"), first),
-      "nothing was written; please report this as a bug"};
-}
-
-/// What can be known of the outputs before the work begins.
-Status check_outputs(const PackArguments& arguments) {
-  const auto format = format_from_path(arguments.output);
-  const std::string remedy = "write .obj, .ply, .gltf or .glb";
-  if (!format) return Error{format.error().kind, arguments.output, format.error().what, remedy};
-  if (*format == FileFormat::off || *format == FileFormat::stl) {
-    return usage(arguments.output, "OFF and STL files cannot hold UVs", remedy);
-  }
-  if (!arguments.image.empty()) {
-    if (const Status ok = check_picture_path(arguments.image); !ok) return ok;
-  }
-  const OutputPath outputs[] = {
-      {"-o", arguments.output}, {"--image", arguments.image}, {"--json", arguments.json}};
-  if (const Status ok = refuse_equal_outputs(outputs); !ok) return ok;
-  for (const OutputPath& output : outputs) {
-    if (output.path.empty() || output.path == "-") continue;
-    if (const Status ok = check_writable(output.path); !ok) return ok;
-  }
-  return Done{};
-}
-
-/// The model may take its own place.
-Status keep_input(const PackArguments& arguments, const Model& model) {
-  const OutputPath outputs[] = {{"--image", arguments.image}, {"--json", arguments.json}};
-  return refuse_overwriting(arguments.input, model, outputs);
-}
-
-/// --density is in texels per unit of surface, and so are errors about it.
-Status resolve_density(PackArguments& arguments, double uv_density) {
-  if (!arguments.density) return Done{};
-  if (uv_density == 0) {
-    return Error{ErrorKind::input, arguments.input,
-                 "its faces have no area in UV or in space, so there is no texel density",
-                 "unwrap the mesh again, or leave out --density"};
-  }
-  arguments.options.density = *arguments.density / uv_density;
-  return Done{};
-}
-
-Error as_command(Error error, double uv_density) {
-  if (error.kind == ErrorKind::interrupted) error.remedy = "nothing was written";
-  if (error.density_that_fits > 0) {
-    const double fits = error.density_that_fits * uv_density;
-    const double unit = std::pow(10, std::floor(std::log10(fits)) - 4);
-    error.remedy = fmt::format("--density {:.5g} would fit, or raise --resolution",
-                               std::floor(fits / unit) * unit);
-  }
-  return error;
-}
-
-/// Packs with a line of progress; Ctrl-C ends it with the best so far.
-Result<Packing> pack_with_progress(PackArguments& arguments, const ChartSet& charts,
-                                   double uv_density) {
-  catch_interrupts();
-  ProgressLine line(!arguments.quiet);
-  arguments.options.progress = [&line](const Progress& progress) {
-    line.show(progress);
-    return !interrupted();
-  };
-  auto packing = pack(charts.charts, arguments.options);
-  if (!packing) return as_command(inside_input(arguments, packing.error()), uv_density);
-  return packing;
-}
-
-/// Model, picture and report: all of them, or none.
-Status write_outputs(const PackArguments& arguments, const Model& model, const ChartSet& charts,
-                     const AtlasMesh& atlas, const Packing& packing, double run_start,
-                     PackOutcome& outcome) {
-  const double start = seconds_now();
-  OutputTransaction outputs;
-  if (Status ok = save_model(model, atlas, arguments.output); !ok) return ok;
-  if (!arguments.image.empty()) {
-    PictureOptions picture = arguments.picture;
-    picture.v_points_down = model.v_points_down;
-    if (Status ok = save_atlas_picture(arguments.image, charts.charts, packing, picture); !ok) {
-      return ok;
-    }
-  }
-  outcome.write = seconds_now() - start;
-  outcome.total = seconds_now() - run_start;
-  if (!arguments.json.empty()) {
-    if (Status ok = write_json(arguments.json, pack_json(arguments, charts, packing, outcome));
-        !ok) {
-      return ok;
-    }
-  }
-  return outputs.commit();
-}
 
 int run(const CLI::App& app, PackArguments& arguments) {
   const double start = seconds_now();
@@ -148,40 +16,7 @@ int run(const CLI::App& app, PackArguments& arguments) {
   if (!model) return report_error(model.error());
   if (const Status ok = keep_input(arguments, *model); !ok) return report_error(ok.error());
   outcome.read = seconds_now() - start;
-
-  const double charts_start = seconds_now();
-  const auto charts = build_charts(model->mesh, arguments.stacked);
-  if (!charts) return report_error(inside_input(arguments, charts.error()));
-  outcome.charts = seconds_now() - charts_start;
-  print_pack_notes(arguments, *model, *charts);
-
-  outcome.uv_density = uv_density(model->mesh);
-  if (const Status ok = resolve_density(arguments, outcome.uv_density); !ok) {
-    return report_error(ok.error());
-  }
-  const double pack_start = seconds_now();
-  const auto packing = pack_with_progress(arguments, *charts, outcome.uv_density);
-  if (!packing) return report_error(packing.error());
-  outcome.page_efficiency = page_efficiencies(*charts, *packing);
-  outcome.pack = seconds_now() - pack_start;
-
-  AtlasMesh atlas = arguments.export_mode == Export::cut
-                        ? export_cut(model->mesh, *charts, *packing, model->v_points_down)
-                        : export_continuous(model->mesh, *charts, *packing, model->v_points_down);
-  round_texcoords_to_float(atlas);
-  if (const auto error = check_result(arguments, *model, atlas, *packing, outcome)) {
-    // The paper's coverage is known to be unsafe; who asks for it gets it, with a warning.
-    if (error->kind != ErrorKind::check || arguments.options.coverage != Coverage::center) {
-      return report_error(*error);
-    }
-    say("{}: warning: {} (--coverage center is not safe)\n", arguments.input, error->what);
-  }
-  if (const Status ok = write_outputs(arguments, *model, *charts, atlas, *packing, start, outcome);
-      !ok) {
-    return report_error(ok.error());
-  }
-  if (!arguments.quiet) print_pack_summary(arguments, *charts, *packing, outcome);
-  return packing->interrupted ? 130 : 0;
+  return pack_mesh(arguments, *model, model->mesh, start, outcome);
 }
 
 }  // namespace
@@ -189,7 +24,10 @@ int run(const CLI::App& app, PackArguments& arguments) {
 Command make_pack_command(CLI::App& parser) {
   auto arguments = std::make_shared<PackArguments>();
   CLI::App& app = *parser.add_subcommand("pack", "Pack the charts of a model that has UVs");
-  add_pack_options(app, *arguments);
+  add_pack_options(app, *arguments, "Model with UVs: .obj .ply .off .gltf .glb");
+  add_choice(app, "--stacked", arguments->stacked, kStacked,
+             "Charts that lie on each other in the input: separate them, or keep them together "
+             "(they go on sharing texels)");
   app.footer(
       "Exit status: 0 written; 2 usage; 3 unusable input or output; 4 no packing found;\n"
       "130 interrupted: the best packing so far was written, if there was one;\n"

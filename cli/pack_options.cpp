@@ -30,9 +30,6 @@ void add_promise_options(CLI::App& app, PackArguments& a) {
              "Texels to a side that does not wrap. Default: half the padding");
   add_number(app, "--block", a.options.block, {1, 64, "texels"},
              "No two charts share a block of N x N texels (4 for BCn compression)");
-  add_choice(app, "--stacked", a.stacked, kStacked,
-             "Charts that lie on each other in the input: separate them, or keep them together "
-             "(they go on sharing texels)");
 }
 
 void add_page_options(CLI::App& app, PackArguments& a) {
@@ -202,8 +199,8 @@ Status resolve_size(PackArguments& a) {
 
 }  // namespace
 
-void add_pack_options(CLI::App& app, PackArguments& a) {
-  app.add_option("input", a.input, "Model with UVs: .obj .ply .off .gltf .glb")->required();
+void add_pack_options(CLI::App& app, PackArguments& a, const char* input_help) {
+  app.add_option("input", a.input, input_help)->required();
   app.add_option("-o,--output", a.output,
                  "Where to write it: .obj .ply .gltf .glb. The input's format keeps all else as "
                  "it is; another one gets faces and UVs")

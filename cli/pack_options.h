@@ -35,7 +35,8 @@ struct PackArguments {
   }
 };
 
-void add_pack_options(CLI::App& app, PackArguments& arguments);
+/// All that do not depend on where the charts come from.
+void add_pack_options(CLI::App& app, PackArguments& arguments, const char* input_help);
 
 /// Fills arguments.options. Refuses what contradicts itself and what would be ignored.
 Status resolve_pack_options(const CLI::App& app, PackArguments& arguments);

@@ -15,6 +15,9 @@ struct PackOutcome {
   bool valid = true;
   double uv_density = 0;  ///< UV units per unit of surface; 0: unknown
   std::vector<double> page_efficiency;
+  std::string command = "pack";
+  Json more = Json::object();  ///< what the command has to add to the report
+  std::vector<std::pair<std::string, double>> stages;  ///< seconds of work before the packing
 };
 
 /// Per page the areas of its charts over its own.

@@ -53,6 +53,9 @@ AtlasMesh export_continuous(const Mesh& mesh, const ChartSet& charts, const Pack
 AtlasMesh export_cut(const Mesh& mesh, const ChartSet& charts, const Packing& packing,
                      bool v_points_down = false);
 
+/// The mesh with the UVs that it has; faces without UVs stay without.
+AtlasMesh keep_texcoords(const Mesh& mesh);
+
 /// Rounds all UVs to the nearest 32-bit float, which is what files and graphics cards hold. What is
 /// checked after this is what a renderer will see.
 void round_texcoords_to_float(AtlasMesh& atlas);

@@ -1,6 +1,7 @@
 // A model file: read it, look at its mesh, write it back with new UVs.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -36,6 +37,7 @@ class Model {
   };
 
   Mesh mesh;
+  std::vector<std::uint32_t> face_material;  ///< per face a number of its material; empty: all one
   FileFormat format = FileFormat::obj;
   std::vector<std::string> remarks;         ///< what was repaired or left aside, one line each
   std::vector<std::string> material_files;  ///< that an OBJ names (mtllib), as written there

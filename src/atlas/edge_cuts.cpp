@@ -4,7 +4,7 @@
 #include <cmath>
 #include <tuple>
 
-#include "charts/edge_groups.h"
+#include "mesh/edge_groups.h"
 
 namespace wrapatlas {
 namespace {

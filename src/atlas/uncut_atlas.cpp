@@ -16,4 +16,11 @@ AtlasMesh uncut_atlas(const Mesh& mesh) {
   return atlas;
 }
 
+AtlasMesh keep_texcoords(const Mesh& mesh) {
+  AtlasMesh atlas = uncut_atlas(mesh);
+  atlas.texcoords = mesh.texcoords;
+  atlas.corner_texcoord = mesh.corner_texcoord;
+  return atlas;
+}
+
 }  // namespace wrapatlas

@@ -3,8 +3,8 @@
 
 #include <cassert>
 
-#include "charts/edge_groups.h"
 #include "charts/sweep_area.h"
+#include "mesh/edge_groups.h"
 #include "wrapatlas/charts.h"
 
 namespace wrapatlas {

@@ -1,11 +1,11 @@
 // From a mesh to its charts.
 #include "wrapatlas/charts.h"
 
-#include "charts/edge_groups.h"
 #include "charts/face_cover.h"
 #include "charts/stacked.h"
-#include "charts/union_find.h"
 #include "charts/uv_vertices.h"
+#include "mesh/edge_groups.h"
+#include "mesh/union_find.h"
 
 namespace wrapatlas {
 namespace {

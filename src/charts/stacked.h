@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "charts/union_find.h"
+#include "mesh/union_find.h"
 #include "wrapatlas/charts.h"
 
 namespace wrapatlas {

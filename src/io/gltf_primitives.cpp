@@ -6,7 +6,7 @@
 #include <numeric>
 #include <set>
 
-#include "io/face_objects.h"
+#include "io/face_labels.h"
 
 namespace wrapatlas {
 namespace {

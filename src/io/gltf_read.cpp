@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "io/face_labels.h"
 #include "io/formats.h"
 #include "io/gltf_primitives.h"
 
@@ -20,6 +21,19 @@ std::vector<std::filesystem::path> files_beside(const GltfFile& file) {
     if (const auto name = percent_decode(text)) paths.push_back(file.folder / *name);
   }
   return paths;
+}
+
+/// Faces of primitives without a material have number 0.
+std::vector<std::uint32_t> materials_of(const GltfContents& contents) {
+  std::vector<std::uint32_t> labels;
+  for (const GltfPrimitive& primitive : contents.primitives) {
+    const Json& json = primitive_json(contents.file.json, primitive);
+    const auto found = json.find("material");
+    const std::uint32_t label =
+        found != json.end() && found->is_number_unsigned() ? found->get<std::uint32_t>() + 1 : 0;
+    assign_label(labels, primitive.first_face, primitive.first_face + primitive.face_count, label);
+  }
+  return labels;
 }
 
 }  // namespace
@@ -46,6 +60,7 @@ Result<Model> read_gltf(std::string bytes, bool binary, std::string_view name,
   if (model.mesh.face_count() == 0) {
     return contents->file.error("", "it has no triangles", "export a model with faces");
   }
+  model.face_material = materials_of(*contents);
   remark_on_textures(*contents, model.remarks);
   model.side_files = files_beside(contents->file);
   model.source = make_gltf_source(std::move(contents));

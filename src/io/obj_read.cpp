@@ -2,10 +2,9 @@
 // kept to write the file back.
 #include <fmt/format.h>
 
-#include <unordered_map>
 #include <utility>
 
-#include "io/face_objects.h"
+#include "io/face_labels.h"
 #include "io/file.h"
 #include "io/formats.h"
 #include "io/number.h"
@@ -49,18 +48,22 @@ class ObjReader {
           fine = read_face(words);
           break;
         case ObjKeyword::o:
-          end_object();
-          object_name_ = rest_of_line(words, line.text);
+          objects_.rename(mesh_.face_object, mesh_.face_count(), rest_of_line(words, line.text));
           break;
         default:
           if (first == "mtllib") read_material_file(words);
+          if (first == "usemtl") {
+            materials_.rename(face_material_, mesh_.face_count(), rest_of_line(words, line.text));
+          }
           break;
       }
       if (!fine) return error_at(line.number);
     }
-    end_object();
+    objects_.rename(mesh_.face_object, mesh_.face_count(), {});
+    materials_.rename(face_material_, mesh_.face_count(), {});
     return check_forward_references();
   }
+  [[nodiscard]] std::vector<std::uint32_t> face_material() && { return std::move(face_material_); }
   [[nodiscard]] std::vector<std::string> material_files() && { return std::move(material_files_); }
 
  private:
@@ -113,15 +116,6 @@ class ObjReader {
     for (std::string_view word = first; !word.empty(); word = words.next()) last = word;
     return line.substr(static_cast<std::size_t>(first.data() - line.data()),
                        static_cast<std::size_t>(last.data() + last.size() - first.data()));
-  }
-
-  /// Faces after lines of one and the same name are of one object, so it may be taken up again.
-  void end_object() {
-    if (first_face_of_object_ == mesh_.face_count()) return;
-    const auto next = static_cast<std::uint32_t>(objects_.size());
-    assign_object(mesh_, first_face_of_object_,
-                  objects_.try_emplace(object_name_, next).first->second);
-    first_face_of_object_ = mesh_.face_count();
   }
 
   // Items may be defined after the face that uses them, so only the kind of number is checked here.
@@ -206,9 +200,8 @@ class ObjReader {
   std::string_view bytes_, name_;
   std::vector<std::string> material_files_;
   Mesh mesh_;
-  std::string_view object_name_;  ///< of the `o` line that faces stand behind; a part of bytes_
-  std::unordered_map<std::string_view, std::uint32_t> objects_;
-  std::size_t first_face_of_object_ = 0;
+  NamedLabels objects_, materials_;
+  std::vector<std::uint32_t> face_material_;
   std::size_t normal_count_ = 0, normals_needed_ = 0, face_of_last_normal_ = 0;
   std::string what_, remedy_;
 };
@@ -221,6 +214,7 @@ Result<Model> read_obj(std::string bytes, std::string_view name) {
   if (!mesh) return mesh.error();
   Model model;
   model.material_files = std::move(reader).material_files();
+  model.face_material = std::move(reader).face_material();
   model.mesh = *std::move(mesh);
   model.format = FileFormat::obj;
   model.source = std::make_unique<ObjSource>(std::move(bytes));

@@ -1,0 +1,236 @@
+// wrapatlas unwrap: read a model, cut it into charts, flatten them, and go on as `pack` does.
+
+#include "wrapatlas/unwrap.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "io/file.h"
+#include "packing_run.h"
+#include "wrapatlas/atlas.h"
+
+namespace wrapatlas::cli {
+namespace {
+
+inline constexpr Named<StretchMeasure> kStretches[] = {{"l2", StretchMeasure::l2},
+                                                       {"linf", StretchMeasure::linf}};
+inline constexpr Named<FlattenMethod> kFlattenMethods[] = {{"labf", FlattenMethod::labf},
+                                                           {"lscm", FlattenMethod::lscm}};
+
+enum class Stage { charts, flat, packed };
+inline constexpr Named<Stage> kStages[] = {
+    {"charts", Stage::charts}, {"flat", Stage::flat}, {"packed", Stage::packed}};
+
+struct UnwrapArguments {
+  PackArguments pack;
+  UnwrapOptions options;
+  std::optional<double> hard_edges;  ///< degrees
+  bool split_materials = false;
+  Stage last = Stage::packed;
+};
+
+/// What was mended on the way in.
+void print_repairs(const PackArguments& arguments, const SurfaceReport& surface) {
+  if (arguments.quiet) return;
+  const auto note = [&](std::uint32_t count, const char* one, const char* many, const char* what) {
+    if (count == 0) return;
+    say("{}: note: {} {}\n", arguments.input, quantity(count, one, many), what);
+  };
+  note(surface.folded_faces, "face", "",
+       "using a point twice: no part of the surface, each has a chart of its own");
+  note(surface.flat_faces, "face", "", "of no area");
+  note(surface.duplicate_faces, "face", "", "lying on another face of the same points");
+  note(surface.turned_faces, "face", "",
+       "wound against the rest of the surface: unwrapped as if turned, the winding stays");
+  note(surface.one_sided_edges, "edge", "", "where the surface has one side only: cut there");
+  note(surface.crowded_edges, "edge", "",
+       "of more than two faces: the flattest pairs go on in each other");
+  note(surface.shared_points, "point", "", "where parts of the surface touch: cut there");
+}
+
+struct Worst {
+  double l2 = 0, linf = 0;
+  std::size_t bad = 0, lscm = 0;
+};
+
+Worst worst_of(const Unwrapping& unwrapping) {
+  Worst worst;
+  for (const UnwrappedChart& chart : unwrapping.charts) {
+    worst.l2 = std::max(worst.l2, chart.distortion.l2);
+    worst.linf = std::max(worst.linf, chart.distortion.linf);
+    worst.bad += chart.is_good ? 0 : 1;
+    worst.lscm += chart.used_lscm ? 1 : 0;
+  }
+  return worst;
+}
+
+Json unwrap_json(const UnwrapArguments& arguments, const Unwrapping& unwrapping) {
+  const Worst worst = worst_of(unwrapping);
+  const SurfaceReport& surface = unwrapping.surface;
+  Json charts = Json::array();
+  for (const UnwrappedChart& chart : unwrapping.charts) {
+    charts.push_back({{"faces", chart.faces},
+                      {"area", chart.area},
+                      {"border_length", chart.border_length},
+                      {"l2", chart.distortion.l2},
+                      {"linf", chart.distortion.linf},
+                      {"angle", chart.distortion.angle},
+                      {"lscm", chart.used_lscm}});
+  }
+  return {{"faces", unwrapping.face_chart.size()},
+          {"max_stretch", arguments.options.max_stretch},
+          {"stretch_measure", name_of(kStretches, arguments.options.stretch)},
+          {"flatten", name_of(kFlattenMethods, arguments.options.flatten.method)},
+          {"iterations", arguments.options.flatten.iterations},
+          {"stretch", {{"l2_max", worst.l2}, {"linf_max", worst.linf}}},
+          {"charts_beyond_limits", worst.bad},
+          {"degenerate_faces", surface.folded_faces + surface.flat_faces},
+          {"repairs",
+           {{"folded_faces", surface.folded_faces},
+            {"flat_faces", surface.flat_faces},
+            {"duplicate_faces", surface.duplicate_faces},
+            {"turned_faces", surface.turned_faces},
+            {"one_sided_edges", surface.one_sided_edges},
+            {"crowded_edges", surface.crowded_edges},
+            {"shared_points", surface.shared_points}}},
+          {"components", surface.components},
+          {"border_edges", surface.border_edges},
+          {"unwrapped", charts}};
+}
+
+Result<Unwrapping> unwrap_with_progress(UnwrapArguments& arguments, const Mesh& mesh) {
+  catch_interrupts();
+  ProgressLine line(!arguments.pack.quiet);
+  arguments.options.progress = [&line](const UnwrapProgress& progress) {
+    line.show(fmt::format("unwrapping {:3.0f} %, {} so far", 100 * progress.fraction,
+                          quantity(progress.charts, "chart")));
+    return !interrupted();
+  };
+  auto unwrapping = unwrap(mesh, arguments.options);
+  if (!unwrapping) return inside_input(arguments.pack, unwrapping.error());
+  return unwrapping;
+}
+
+/// Writes the charts unpacked: flat, one beside the other, the longer side of the whole being 1; or
+/// not even that, each as an object of its own.
+int write_unpacked(const UnwrapArguments& arguments, Model& model, Unwrapping& unwrapping,
+                   double start, PackOutcome& outcome) {
+  Mesh& mesh = unwrapping.mesh;
+  if (arguments.last == Stage::charts) {
+    model.source.reset();  // a new file: the old one's objects are others
+    model.mesh.face_object = unwrapping.face_chart;
+    mesh.texcoords.clear();
+    mesh.corner_texcoord.assign(mesh.corner_count(), kNone);
+  }
+  Box2 box;
+  for (const Vec2 uv : mesh.texcoords) box.add(uv);
+  const double side = std::max(box.size().x, box.size().y);
+  for (Vec2& uv : mesh.texcoords) uv = (side > 0 ? 1 / side : 1) * (uv - box.min);
+  OutputTransaction outputs;
+  const PackArguments& pack = arguments.pack;
+  const double write_start = seconds_now();
+  if (const Status ok = save_model(model, keep_texcoords(mesh), pack.output); !ok) {
+    return report_error(ok.error());
+  }
+  outcome.write = seconds_now() - write_start;
+  if (!pack.json.empty()) {
+    Json report = {{"version", WRAPATLAS_VERSION},
+                   {"command", outcome.command},
+                   {"input", pack.input},
+                   {"output", pack.output},
+                   {"charts", unwrapping.charts.size()}};
+    report["seconds"] = {
+        {"total", seconds_now() - start}, {"read", outcome.read}, {"write", outcome.write}};
+    for (const auto& [stage, seconds] : outcome.stages) report["seconds"][stage] = seconds;
+    report["peak_memory_mb"] = peak_memory_mb();
+    report.update(outcome.more);
+    if (const Status ok = write_json(pack.json, report); !ok) return report_error(ok.error());
+  }
+  if (const Status ok = outputs.commit(); !ok) return report_error(ok.error());
+  return 0;
+}
+
+int run(const CLI::App& app, UnwrapArguments& arguments) {
+  const double start = seconds_now();
+  PackArguments& pack = arguments.pack;
+  if (const Status ok = resolve_pack_options(app, pack); !ok) return report_error(ok.error());
+  if (const Status ok = check_outputs(pack); !ok) return report_error(ok.error());
+  if (arguments.hard_edges) {
+    arguments.options.surface.hard_angle = *arguments.hard_edges * std::numbers::pi / 180;
+  }
+  arguments.options.threads = pack.options.threads;
+  LoadOptions load_options;
+  load_options.texcoord_set = pack.texcoord;
+  auto model = load_model(pack.input, load_options);
+  if (!model) return report_error(model.error());
+  if (const Status ok = keep_input(pack, *model); !ok) return report_error(ok.error());
+  if (arguments.split_materials) arguments.options.surface.face_labels = model->face_material;
+  PackOutcome outcome;
+  outcome.command = "unwrap";
+  outcome.read = seconds_now() - start;
+
+  auto unwrapping = unwrap_with_progress(arguments, model->mesh);
+  if (!unwrapping) return report_error(unwrapping.error());
+  if (model->v_points_down) {
+    for (Vec2& uv : unwrapping->mesh.texcoords) uv.y = -uv.y;
+  }
+  print_repairs(pack, unwrapping->surface);
+  if (!pack.quiet) {
+    const Worst worst = worst_of(*unwrapping);
+    say("{}: {} in {}, L2 stretch {:.2f} at most, L-infinity {:.1f}, {:.2f} s\n", pack.input,
+        quantity(unwrapping->face_chart.size(), "face"),
+        quantity(unwrapping->charts.size(), "chart"), worst.l2, worst.linf,
+        unwrapping->surface_seconds + unwrapping->segment_seconds);
+  }
+  outcome.more = unwrap_json(arguments, *unwrapping);
+  outcome.stages = {{"repair", unwrapping->surface_seconds},
+                    {"segment", unwrapping->segment_seconds},
+                    {"flatten", unwrapping->flatten_seconds}};
+  if (arguments.last != Stage::packed) {
+    return write_unpacked(arguments, *model, *unwrapping, start, outcome);
+  }
+  return pack_mesh(pack, *model, unwrapping->mesh, start, outcome);
+}
+
+}  // namespace
+
+Command make_unwrap_command(CLI::App& parser) {
+  auto arguments = std::make_shared<UnwrapArguments>();
+  CLI::App& app = *parser.add_subcommand("unwrap", "Cut a mesh into charts, flatten and pack them");
+  UnwrapOptions& options = arguments->options;
+  add_number(app, "--max-stretch", options.max_stretch, {1, 1000},
+             "No chart is stretched more, by the measure of --stretch; 1: not at all");
+  add_choice(app, "--stretch", options.stretch, kStretches,
+             "l2: the root mean square over a chart (Sander et al. 2001), 1 for an isometry; linf: "
+             "the largest at any place of it");
+  add_number(app, "--max-charts", options.max_charts, {0, 1e9, "charts"},
+             "Join charts beyond --max-stretch until there are no more than this; parts of the "
+             "surface that do not touch stay apart. 0: no limit");
+  add_choice(
+      app, "--flatten", options.flatten.method, kFlattenMethods,
+      "labf: linear angle based flattening (Zayer et al. 2007); lscm: least squares conformal "
+      "maps");
+  add_number(app, "--iterations", options.flatten.iterations, {1, 20},
+             "labf: linear solves, each from the angles of the one before; the paper has 1");
+  add_number(app, "--hard-edges", arguments->hard_edges, {0, 180, "degrees"},
+             "Cut along edges whose faces differ by more than this");
+  app.add_flag("--keep-seams", options.surface.uv_seams,
+               "Cut wherever the UVs that the model has are cut");
+  app.add_flag("--split-materials", arguments->split_materials,
+               "Cut between faces of different materials (OBJ, glTF)");
+  add_choice(app, "--stop-after", arguments->last, kStages,
+             "charts: write each chart as an object of its own, without UVs; flat: with UVs, but "
+             "not packed; packed: all of it");
+  add_pack_options(app, arguments->pack, "Model: .obj .ply .off .stl .gltf .glb");
+  app.footer(
+      "Exit status: as of wrapatlas pack.\n"
+      "Examples:\n"
+      "  wrapatlas unwrap bare.off -o unwrapped.obj --image atlas.png\n"
+      "  wrapatlas unwrap scan.ply -o scan.glb --resolution 4096 --max-stretch 1.5");
+  return {&app, [arguments, &app] { return run(app, *arguments); }};
+}
+
+}  // namespace wrapatlas::cli

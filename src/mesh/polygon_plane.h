@@ -1,0 +1,53 @@
+// The plane of a polygon in space.
+#pragma once
+
+#include <cmath>
+
+#include "wrapatlas/geometry.h"
+#include "wrapatlas/mesh.h"
+
+namespace wrapatlas {
+
+inline Vec3 unit(const Vec3& v) {
+  const double size = length(v);
+  return size > 0 ? (1 / size) * v : Vec3{};
+}
+
+/// Newell's normal: its length is twice the polygon's area. `point(i)` for i in [0, count).
+template <typename Point>
+Vec3 newell_normal(std::uint32_t count, Point&& point) {
+  Vec3 sum;
+  const Vec3 origin = point(0);
+  for (std::uint32_t i = 1; i + 1 < count; ++i) {
+    sum = sum + cross(point(i) - origin, point(i + 1) - origin);
+  }
+  return sum;
+}
+
+inline Vec3 polygon_normal(const Mesh& mesh, std::uint32_t face) {
+  const std::uint32_t begin = mesh.face_begin[face];
+  return newell_normal(mesh.face_size(face), [&](std::uint32_t i) {
+    return mesh.positions[mesh.corner_position[begin + i]];
+  });
+}
+
+/// Coordinates within the plane of a normal, counter-clockwise as seen from its tip. Of no normal:
+/// those of x and y.
+class Plane {
+ public:
+  explicit Plane(const Vec3& normal) {
+    const Vec3 n = unit(normal);
+    if (n == Vec3{}) return;
+    // The axis that is farthest from the normal.
+    const double x = std::abs(n.x), y = std::abs(n.y), z = std::abs(n.z);
+    const Vec3 axis = x <= y && x <= z ? Vec3{1, 0, 0} : y <= z ? Vec3{0, 1, 0} : Vec3{0, 0, 1};
+    u_ = unit(cross(axis, n));
+    v_ = cross(n, u_);
+  }
+  [[nodiscard]] Vec2 project(const Vec3& p) const { return {dot(u_, p), dot(v_, p)}; }
+
+ private:
+  Vec3 u_{1, 0, 0}, v_{0, 1, 0};
+};
+
+}  // namespace wrapatlas

@@ -1,0 +1,98 @@
+#include "segment/draft.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "mesh/polygon_plane.h"
+#include "segment/seams.h"
+
+namespace wrapatlas {
+namespace {
+
+/// Parts that shrink to less than this share of their area get a seam.
+constexpr double kShrunk = 0.25;
+constexpr int kMostSeamRounds = 2;
+
+/// More than this is split without a look: flattening it takes too long.
+constexpr std::size_t kMostTriangles = 120000;
+
+std::vector<std::uint32_t> merged(const std::vector<std::uint32_t>& a,
+                                  const std::vector<std::uint32_t>& b) {
+  std::vector<std::uint32_t> all;
+  std::set_union(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(all));
+  return all;
+}
+
+void flatten_draft(Draft& draft, const UnwrapOptions& options) {
+  draft.uv.clear();
+  draft.is_good = false;
+  const auto flat = flatten_disc(draft.disc.points, draft.disc.triangles, options.flatten);
+  if (!flat) return;
+  draft.uv = flat->uv;
+  draft.used_lscm = flat->method == FlattenMethod::lscm;
+  draft.distortion = measure_distortion(draft.disc.points, draft.uv, draft.disc.triangles);
+}
+
+/// A single face needs no solver: it is seen along its normal. Of no area it is a dot.
+void lay_in_plane(const FaceShapes& shapes, Draft& draft) {
+  const Plane plane(shapes.normal[draft.faces[0]]);
+  draft.uv.assign(draft.disc.points.size(), {});
+  draft.is_good = true;
+  if (shapes.area[draft.faces[0]] == 0) return;
+  double flat = 0, space = 0;
+  for (std::size_t p = 0; p < draft.uv.size(); ++p)
+    draft.uv[p] = plane.project(draft.disc.points[p]);
+  for (const auto& [a, b, c] : draft.disc.triangles) {
+    flat += signed_area2(draft.uv[a], draft.uv[b], draft.uv[c]);
+    space += length(cross(draft.disc.points[b] - draft.disc.points[a],
+                          draft.disc.points[c] - draft.disc.points[a]));
+  }
+  for (Vec2& p : draft.uv) p = std::sqrt(space / flat) * p;
+  draft.distortion = measure_distortion(draft.disc.points, draft.uv, draft.disc.triangles);
+}
+
+bool within_limits(const Draft& draft, const UnwrapOptions& options) {
+  return !draft.uv.empty() && draft.distortion.flipped == 0 &&
+         stretch_of(draft.distortion, options) <= options.max_stretch &&
+         !border_crosses(draft.uv, draft.disc.triangles);
+}
+
+}  // namespace
+
+double stretch_of(const Distortion& distortion, const UnwrapOptions& options) {
+  return options.stretch == StretchMeasure::l2 ? distortion.l2 : distortion.linf;
+}
+
+Draft make_draft(const Surface& surface, const Region& region, const FaceShapes& shapes,
+                 std::vector<std::uint32_t> seams, const UnwrapOptions& options) {
+  Draft draft;
+  draft.faces = region.faces;
+  draft.seams = std::move(seams);
+  draft.disc = cut_to_disc(surface, region, shapes, draft.seams, 0);
+  if (draft.faces.size() == 1) {
+    lay_in_plane(shapes, draft);
+    if (shapes.area[draft.faces[0]] > 0) draft.is_good = within_limits(draft, options);
+    return draft;
+  }
+  if (draft.disc.triangles.size() > kMostTriangles) return draft;
+  if (draft.disc.is_closed) {
+    draft.seams = merged(draft.seams, cut_open(surface, region, draft.disc));
+    draft.disc = cut_to_disc(surface, region, shapes, draft.seams, 0);
+    if (draft.disc.is_closed) return draft;  // of two or three faces: split it
+  }
+  flatten_draft(draft, options);
+  for (int round = 0; round < kMostSeamRounds; ++round) {
+    if (draft.uv.empty() || draft.distortion.flipped > 0) break;
+    if (stretch_of(draft.distortion, options) <= options.max_stretch) break;
+    const auto more = seams_to_shrunk(surface, region, draft.disc, draft.uv, kShrunk);
+    if (more.empty()) break;
+    draft.seams = merged(draft.seams, more);
+    draft.disc = cut_to_disc(surface, region, shapes, draft.seams, 0);
+    flatten_draft(draft, options);
+  }
+  draft.is_good = within_limits(draft, options);
+  return draft;
+}
+
+}  // namespace wrapatlas

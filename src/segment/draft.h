@@ -1,0 +1,31 @@
+// A chart as it is tried: faces, cut to a disc, flattened and judged.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "segment/disc.h"
+#include "wrapatlas/parameterize.h"
+#include "wrapatlas/unwrap.h"
+
+namespace wrapatlas {
+
+struct Draft {
+  std::vector<std::uint32_t> faces;  ///< of the surface
+  std::vector<std::uint32_t> seams;  ///< corners of the surface, as cut_to_disc takes them
+  Disc disc;
+  std::vector<Vec2> uv;  ///< per point of the disc; empty: not flattened
+  Distortion distortion;
+  bool used_lscm = false;
+  bool is_good = false;  ///< within the stretch asked for, no triangle flipped, no overlap
+};
+
+/// Cuts, flattens and judges the region, with more seams if that helps. `draft.seams` to begin
+/// with; they may be none.
+Draft make_draft(const Surface& surface, const Region& region, const FaceShapes& shapes,
+                 std::vector<std::uint32_t> seams, const UnwrapOptions& options);
+
+/// The measure that options.max_stretch bounds.
+double stretch_of(const Distortion& distortion, const UnwrapOptions& options);
+
+}  // namespace wrapatlas

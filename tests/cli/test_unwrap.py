@@ -1,0 +1,165 @@
+"""`wrapatlas unwrap`: bare models come out with UVs that keep every promise."""
+
+import json
+import struct
+import unittest
+
+import support
+from support import obj_lines
+
+FAST = ("--resolution", 256, "--padding", 2, "--time", 0, "--quiet")
+
+CUBE = """o cube
+v 0 0 0
+v 1 0 0
+v 1 1 0
+v 0 1 0
+v 0 0 1
+v 1 0 1
+v 1 1 1
+v 0 1 1
+usemtl paint
+f 4 3 2 1
+f 5 6 7 8
+usemtl steel
+f 1 2 6 5
+f 2 3 7 6
+f 3 4 8 7
+f 4 1 5 8
+"""
+
+
+class Unwrap(support.CommandTest):
+    def unwrap(self, source, output, *options):
+        return self.report("unwrap", source, "-o", output, *FAST, *options)
+
+    def check_alone(self, output, report, padding=2):
+        """The result for itself: no chart overlaps another or itself, padding holds."""
+        result = self.report("check", output, "--resolution",
+                             f"{report['width']}x{report['height']}", "--padding", padding,
+                             "--wrap", report["wrap"], "--quiet")
+        self.assertTrue(result["ok"])
+
+    def test_a_bare_model(self):
+        report = self.unwrap(self.sample("knot.off"), "a.obj")
+        self.assertEqual(report["command"], "unwrap")
+        self.assertTrue(report["valid"])
+        self.assertLessEqual(report["stretch"]["l2_max"], 2)
+        self.assertEqual(report["charts_beyond_limits"], 0)
+        self.assertEqual(len(report["unwrapped"]), report["charts"])
+        for stage in ("repair", "segment", "flatten", "pack"):
+            self.assertIn(stage, report["seconds"])
+        header = self.path("knot.off").read_text().split()[1:3]
+        lines = self.path("a.obj").read_text()
+        self.assertEqual(len(obj_lines(lines, "v")), int(header[0]))
+        faces = obj_lines(lines, "f")
+        self.assertEqual(len(faces), int(header[1]))
+        self.assertTrue(all("/" in word for line in faces for word in line.split()[1:]))
+        self.check_alone("a.obj", report)
+
+    def test_each_format_goes_to_each(self):
+        self.write("a.obj", CUBE)
+        self.unwrap("a.obj", "b.ply")
+        self.unwrap("b.ply", "c.glb")
+        self.unwrap("c.glb", "d.gltf")
+        report = self.unwrap("d.gltf", "e.obj")
+        self.assertEqual(report["faces"], 12)  # glTF knows triangles only
+        self.check_alone("e.obj", report)
+        triangle = struct.pack("<12fH", *([0] * 3 + [0, 0, 0, 1, 0, 0, 0, 1, 0]), 0)
+        self.write("t.stl", b"\0" * 80 + struct.pack("<I", 1) + triangle)
+        self.check_alone("t.obj", self.unwrap("t.stl", "t.obj"))
+
+    def test_the_rest_of_the_file_stays(self):
+        self.write("a.obj", "# kept\nmtllib m.mtl\n" + CUBE)
+        self.unwrap("a.obj", "b.obj")
+        text = self.path("b.obj").read_text()
+        for line in ("# kept", "mtllib m.mtl", "usemtl steel", "o cube"):
+            self.assertIn(line + "\n", text)
+
+    def test_unwrapped_again_from_its_own_result(self):
+        self.write("a.obj", CUBE)
+        one = self.unwrap("a.obj", "b.obj")
+        two = self.unwrap("b.obj", "c.obj")
+        self.assertEqual(one["unwrapped"], two["unwrapped"])
+        self.check_alone("c.obj", two)
+
+    def test_cuts_on_request(self):
+        self.write("a.obj", CUBE)
+        self.assertEqual(self.unwrap("a.obj", "b.obj", "--hard-edges", 45)["charts"], 6)
+        self.assertEqual(self.unwrap("b.obj", "c.obj", "--keep-seams")["charts"], 6)
+        self.assertEqual(self.unwrap("a.obj", "d.obj", "--split-materials")["charts"], 3)
+        whole = self.unwrap("a.obj", "e.obj")["charts"]
+        self.assertLess(whole, 3)
+
+    def test_limits(self):
+        source = self.sample("knot.off")
+        loose = self.unwrap(source, "a.obj")["charts"]
+        tight = self.unwrap(source, "b.obj", "--max-stretch", 1.05)
+        self.assertGreater(tight["charts"], loose)
+        self.assertLessEqual(tight["stretch"]["l2_max"], 1.05)
+        few = self.unwrap(source, "c.obj", "--max-stretch", 1.05, "--max-charts", loose)
+        self.assertLessEqual(few["charts"], loose)
+        linf = self.unwrap(source, "d.obj", "--stretch", "linf", "--max-stretch", 2)
+        self.assertLessEqual(linf["stretch"]["linf_max"], 2)
+        lscm = self.unwrap(source, "e.obj", "--flatten", "lscm")
+        self.assertTrue(all(chart["lscm"] for chart in lscm["unwrapped"]))
+
+    def test_stops_after_a_stage(self):
+        source = self.sample("knot.off")
+        report = self.report("unwrap", source, "-o", "a.obj", "--quiet", "--stop-after", "charts")
+        text = self.path("a.obj").read_text()
+        objects = {line for line in obj_lines(text, "o")}
+        self.assertEqual(len(objects), report["charts"])
+        self.assertEqual(obj_lines(text, "vt"), [])
+        report = self.report("unwrap", source, "-o", "b.obj", "--quiet", "--stop-after", "flat")
+        self.assertNotIn("efficiency", report)
+        info = self.report("info", "b.obj")["charts"]
+        self.assertEqual(info["count"], report["charts"])
+        self.assertEqual(info["stacked"], 0)
+        self.assertEqual(info["self_overlapping"], 0)
+
+    def test_broken_surfaces_are_mended_and_told(self):
+        two = "f 1 2 3\nf 1 3 2\n"  # one face and its back
+        bow = "f 1 2 3\nf 1 4 5\n"
+        fin = "f 1 2 3\nf 2 1 4\nf 1 2 5\n"
+        turned = "f 1 2 3\nf 2 3 4\n"
+        folded = "f 1 2 3\nf 1 1 2\nf 2 2 2\n"
+        flat = "f 1 2 3\nf 1 2 6\n"
+        points = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 1\nv 0 -1 1\nv 0.5 0 0\n"
+        cases = ((two, "duplicate_faces", 1), (bow, "shared_points", 1), (fin, "crowded_edges", 1),
+                 (turned, "turned_faces", 1), (folded, "folded_faces", 2), (flat, "flat_faces", 1))
+        for faces, repair, count in cases:
+            with self.subTest(repair):
+                self.write("a.obj", points + faces)
+                report = self.unwrap("a.obj", "b.obj")
+                self.assertEqual(report["repairs"][repair], count)
+                written = obj_lines(self.path("b.obj").read_text(), "f")
+                self.assertEqual(len(written), faces.count("f "))
+                self.assertTrue(all(word.count("/") == 1 for line in written
+                                    for word in line.split()[1:]))
+                self.check_alone("b.obj", report)
+                loud = self.call("unwrap", "a.obj", "-o", "c.obj", "--time", 0)
+                self.assertRegex(loud.stderr, r"a\.obj: note: " + str(count))
+
+    def test_same_bytes_for_any_number_of_threads(self):
+        source = self.sample("knot.off")
+        for threads in (1, 2, 5):
+            self.unwrap(source, f"{threads}.obj", "--threads", threads)
+        self.assertEqual(self.path("1.obj").read_bytes(), self.path("2.obj").read_bytes())
+        self.assertEqual(self.path("1.obj").read_bytes(), self.path("5.obj").read_bytes())
+
+    def test_refuses(self):
+        self.write("empty.obj", "")
+        self.write("a.obj", CUBE)
+        self.refuse(3, ("empty.obj", "no faces"), "unwrap", "empty.obj", "-o", "b.obj")
+        self.refuse(3, ("none.obj",), "unwrap", "none.obj", "-o", "b.obj")
+        self.refuse(2, ("--max-stretch", "1"), "unwrap", "a.obj", "-o", "b.obj",
+                    "--max-stretch", 0.5)
+        self.refuse(2, ("b.stl", "UVs"), "unwrap", "a.obj", "-o", "b.stl")
+        self.refuse(3, ("nowhere",), "unwrap", "a.obj", "-o", "nowhere/b.obj")
+        self.write("flat.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n")
+        self.refuse(3, ("flat.obj", "no area"), "unwrap", "flat.obj", "-o", "b.obj")
+
+
+if __name__ == "__main__":
+    unittest.main()

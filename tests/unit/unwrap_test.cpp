@@ -1,0 +1,184 @@
+// Whole meshes, whole and broken, come to charts that keep every promise.
+#include <gtest/gtest.h>
+
+#include <map>
+#include <set>
+
+#include "support/solids.h"
+#include "wrapatlas/charts.h"
+#include "wrapatlas/unwrap.h"
+
+namespace wrapatlas {
+namespace {
+
+/// L2 stretch of one chart by the formula as it is printed, area normalised.
+double slow_l2(const std::vector<std::array<Vec3, 3>>& space,
+               const std::vector<std::array<Vec2, 3>>& plane) {
+  double sum = 0, area3 = 0, area2 = 0;
+  for (std::size_t i = 0; i < space.size(); ++i) {
+    const auto& [q1, q2, q3] = space[i];
+    const auto& [p1, p2, p3] = plane[i];
+    const double a3 = 0.5 * length(cross(q2 - q1, q3 - q1));
+    const double twice = signed_area2(p1, p2, p3);
+    area2 += 0.5 * twice;
+    if (a3 == 0) continue;
+    const Vec3 ss = (1 / twice) * ((p2.y - p3.y) * q1 + (p3.y - p1.y) * q2 + (p1.y - p2.y) * q3);
+    const Vec3 st = (1 / twice) * ((p3.x - p2.x) * q1 + (p1.x - p3.x) * q2 + (p2.x - p1.x) * q3);
+    sum += 0.5 * (dot(ss, ss) + dot(st, st)) * a3;
+    area3 += a3;
+  }
+  return std::sqrt(sum / area3) * std::sqrt(area2 / area3);
+}
+
+/// Every promise of unwrap(), looked at anew from the mesh that came out.
+Unwrapping expect_unwrapped(const Mesh& mesh, const UnwrapOptions& options = {}) {
+  EXPECT_TRUE(validate_mesh(mesh));
+  auto result = unwrap(mesh, options);
+  EXPECT_TRUE(result) << (result ? "" : result.error().message());
+  if (!result) return {};
+  const Mesh& out = result->mesh;
+  EXPECT_TRUE(validate_mesh(out));
+  EXPECT_EQ(out.face_begin, mesh.face_begin);
+  EXPECT_EQ(out.corner_position, mesh.corner_position);
+  EXPECT_EQ(out.positions, mesh.positions);
+
+  const auto charts = build_charts(out);
+  EXPECT_TRUE(charts);
+  if (!charts) return {};
+  EXPECT_EQ(charts->charts.size(), result->charts.size());
+  EXPECT_EQ(charts->faces_without_uv, 0U);
+  EXPECT_EQ(charts->self_overlapping, 0U);
+  EXPECT_EQ(charts->stacked, 0U);
+
+  std::map<std::uint32_t, std::vector<std::uint32_t>> faces_of;
+  for (std::uint32_t f = 0; f < out.face_count(); ++f) {
+    EXPECT_LT(result->face_chart[f], result->charts.size());
+    faces_of[result->face_chart[f]].push_back(f);
+  }
+  EXPECT_EQ(faces_of.size(), result->charts.size());
+  for (const auto& [chart, faces] : faces_of) {
+    std::set<std::uint32_t> points;
+    std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
+    std::vector<std::array<Vec3, 3>> space;
+    std::vector<std::array<Vec2, 3>> plane;
+    for (const std::uint32_t f : faces) {
+      const std::uint32_t begin = out.face_begin[f], size = out.face_size(f);
+      for (std::uint32_t i = 0; i < size; ++i) {
+        const std::uint32_t a = out.corner_texcoord[begin + i];
+        const std::uint32_t b = out.corner_texcoord[begin + (i + 1) % size];
+        EXPECT_NE(a, kNone);
+        points.insert(a);
+        ++edges[{std::min(a, b), std::max(a, b)}];
+      }
+      if (size != 3) continue;
+      std::array<Vec3, 3> q;
+      std::array<Vec2, 3> p;
+      for (std::uint32_t i = 0; i < 3; ++i) {
+        q[i] = out.positions[out.corner_position[begin + i]];
+        p[i] = out.texcoords[out.corner_texcoord[begin + i]];
+      }
+      space.push_back(q);
+      plane.push_back(p);
+    }
+    EXPECT_EQ(points.size() + faces.size(), edges.size() + 1) << "chart " << chart << " is no disc";
+    for (const auto& [edge, count] : edges) EXPECT_LE(count, 2);
+    EXPECT_EQ(result->charts[chart].faces, faces.size());
+    if (space.size() != faces.size() || result->surface.turned_faces > 0 ||
+        result->charts[chart].area == 0) {
+      continue;
+    }
+    const double l2 = slow_l2(space, plane);
+    if (options.max_charts == 0) {
+      EXPECT_LE(l2, options.max_stretch * (1 + 1e-9));
+    }
+    EXPECT_NEAR(l2, result->charts[chart].distortion.l2, 1e-6 * l2);
+    for (std::size_t i = 0; i < plane.size(); ++i) {
+      const double a3 = length(cross(space[i][1] - space[i][0], space[i][2] - space[i][0]));
+      if (a3 > 0) {
+        EXPECT_GT(signed_area2(plane[i][0], plane[i][1], plane[i][2]), 0);
+      }
+    }
+  }
+  return *std::move(result);
+}
+
+TEST(Unwrap, ASheetIsOneChartWithoutStretch) {
+  for (const bool quads : {false, true}) {
+    const Unwrapping u = expect_unwrapped(test::sheet(12, quads));
+    ASSERT_EQ(u.charts.size(), 1U);
+    EXPECT_NEAR(u.charts[0].distortion.linf, 1, 1e-6);
+  }
+}
+
+TEST(Unwrap, FewChartsOfRoundThings) {
+  EXPECT_LE(expect_unwrapped(test::ball(16)).charts.size(), 3U);
+  EXPECT_LE(expect_unwrapped(test::torus(16)).charts.size(), 4U);
+  EXPECT_LE(expect_unwrapped(test::tube(16, 4)).charts.size(), 1U);
+  EXPECT_LE(expect_unwrapped(test::ball(16, 8)).charts.size(), 3U);
+  EXPECT_LE(expect_unwrapped(test::torus(16, 0.3, true)).charts.size(), 4U);
+}
+
+TEST(Unwrap, LessStretchTakesMoreCharts) {
+  UnwrapOptions options;
+  options.max_stretch = 1.02;
+  const std::size_t strict = expect_unwrapped(test::torus(16), options).charts.size();
+  EXPECT_GT(strict, expect_unwrapped(test::torus(16)).charts.size());
+  options.stretch = StretchMeasure::linf;
+  options.max_stretch = 1.5;
+  const Unwrapping u = expect_unwrapped(test::ball(10), options);
+  for (const UnwrappedChart& chart : u.charts) EXPECT_LE(chart.distortion.linf, 1.5);
+}
+
+TEST(Unwrap, AtMostSoManyCharts) {
+  UnwrapOptions options;
+  options.max_stretch = 1.02;
+  options.max_charts = 4;
+  EXPECT_LE(expect_unwrapped(test::torus(12), options).charts.size(), 4U);
+}
+
+TEST(Unwrap, BrokenMeshesLoseNoFace) {
+  expect_unwrapped(test::moebius(16));
+  expect_unwrapped(test::with_turned_faces(test::ball(6), 3));
+  expect_unwrapped(test::both(test::ball(5), test::ball(5)));
+  expect_unwrapped(test::both(test::ball(5), test::moved(test::sheet(5), {5, 0, 0})));
+  expect_unwrapped(test::both(test::sheet(5), test::with_turned_faces(test::sheet(5), 1)));
+  const Mesh odd = test::bare_mesh(
+      {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.5, 0, 0}, {1, 1, 0}, {3, 3, 3}},
+      {{0, 3, 1}, {0, 0, 1}, {0, 1, 2}, {1, 4, 1, 2}, {2, 1, 4}, {5, 5, 5}, {0, 1, 5}, {1, 0, 5}});
+  expect_unwrapped(odd);
+}
+
+TEST(Unwrap, FlatFacesAlone) {
+  const std::vector<Vec3> points{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}, {0, 1, 0}, {0, 9, 9}};
+  const auto nothing = unwrap(test::bare_mesh(points, {{0, 1, 2}, {0, 2, 3}, {1, 1, 1}}));
+  ASSERT_FALSE(nothing);
+  EXPECT_EQ(nothing.error().kind, ErrorKind::input);
+  expect_unwrapped(test::bare_mesh(points, {{0, 1, 2}, {0, 2, 3}, {4, 5, 5}, {3, 4, 5}}));
+}
+
+TEST(Unwrap, ThreadsChangeNothing) {
+  UnwrapOptions one, four;
+  one.threads = 1;
+  four.threads = 4;
+  const Mesh mesh = test::both(test::torus(12), test::moved(test::ball(12, 5), {9, 0, 0}));
+  const auto a = unwrap(mesh, one), b = unwrap(mesh, four);
+  ASSERT_TRUE(a && b);
+  EXPECT_EQ(a->mesh.texcoords, b->mesh.texcoords);
+  EXPECT_EQ(a->mesh.corner_texcoord, b->mesh.corner_texcoord);
+}
+
+TEST(Unwrap, RefusesAndStops) {
+  UnwrapOptions options;
+  options.max_stretch = 0.5;
+  EXPECT_EQ(unwrap(test::ball(4), options).error().kind, ErrorKind::usage);
+  options.max_stretch = 2;
+  options.flatten.iterations = 0;
+  EXPECT_EQ(unwrap(test::ball(4), options).error().kind, ErrorKind::usage);
+  EXPECT_EQ(unwrap(Mesh{}).error().kind, ErrorKind::input);
+  options.flatten.iterations = 2;
+  options.progress = [](const UnwrapProgress&) { return false; };
+  EXPECT_EQ(unwrap(test::ball(8), options).error().kind, ErrorKind::interrupted);
+}
+
+}  // namespace
+}  // namespace wrapatlas

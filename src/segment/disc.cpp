@@ -8,13 +8,13 @@
 namespace wrapatlas {
 namespace {
 
-class DiscBuilder {
+class ChartCutter {
  public:
-  DiscBuilder(const Surface& surface, const Region& region, const FaceShapes& shapes,
+  ChartCutter(const Surface& surface, const Region& region, const FaceShapes& shapes,
               std::span<const std::uint32_t> seams)
       : surface_(surface), region_(region), shapes_(shapes), seams_(seams) {}
 
-  Disc build(std::uint32_t root) {
+  CutChart build(std::uint32_t root) {
     number_corners();
     find_twins();
     begin_loops();
@@ -160,14 +160,14 @@ class DiscBuilder {
   std::span<const std::uint32_t> seams_;
   std::vector<std::uint32_t> twin_;            // of the surface, less the seams
   std::vector<std::uint32_t> after_, before_;  // along the border
-  Disc disc_;
+  CutChart disc_;
 };
 
 }  // namespace
 
-Disc cut_to_disc(const Surface& surface, const Region& region, const FaceShapes& shapes,
-                 std::span<const std::uint32_t> seams, std::uint32_t root) {
-  return DiscBuilder(surface, region, shapes, seams).build(root);
+CutChart cut_to_disc(const Surface& surface, const Region& region, const FaceShapes& shapes,
+                     std::span<const std::uint32_t> seams, std::uint32_t root) {
+  return ChartCutter(surface, region, shapes, seams).build(root);
 }
 
 }  // namespace wrapatlas

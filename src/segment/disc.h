@@ -12,7 +12,7 @@ namespace wrapatlas {
 
 /// The region's faces, joined along as many edges as leave it a disc. Corners are numbered within
 /// it, those of one face after the other in the region's order.
-struct Disc {
+struct CutChart {
   std::vector<Vec3> points;
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< of points
   std::vector<std::uint32_t> corner_begin{0};           ///< per face of the region, and one more
@@ -34,7 +34,7 @@ struct Disc {
 /// follow one another and are one edge of the surface are closed. What stays open is a seam along
 /// which the ways from the root meet (a cut locus), with no dead ends but those of `seams`.
 /// The region less its seams must be connected. O(n log n).
-Disc cut_to_disc(const Surface& surface, const Region& region, const FaceShapes& shapes,
-                 std::span<const std::uint32_t> seams, std::uint32_t root);
+CutChart cut_to_disc(const Surface& surface, const Region& region, const FaceShapes& shapes,
+                     std::span<const std::uint32_t> seams, std::uint32_t root);
 
 }  // namespace wrapatlas

@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "mesh/polygon_plane.h"
+#include "parameterize/untangle.h"
 #include "segment/seams.h"
 
 namespace wrapatlas {
@@ -30,6 +31,7 @@ void flatten_draft(Draft& draft, const UnwrapOptions& options) {
   const auto flat = flatten_disc(draft.disc.points, draft.disc.triangles, options.flatten);
   if (!flat) return;
   draft.uv = flat->uv;
+  untangle(draft.uv, draft.disc.triangles);
   draft.used_lscm = flat->method == FlattenMethod::lscm;
   draft.distortion = measure_distortion(draft.disc.points, draft.uv, draft.disc.triangles);
 }
@@ -83,8 +85,11 @@ Draft make_draft(const Surface& surface, const Region& region, const FaceShapes&
   }
   flatten_draft(draft, options);
   for (int round = 0; round < kMostSeamRounds; ++round) {
-    if (draft.uv.empty() || draft.distortion.flipped > 0) break;
-    if (stretch_of(draft.distortion, options) <= options.max_stretch) break;
+    if (draft.uv.empty()) break;
+    if (draft.distortion.flipped == 0 &&
+        stretch_of(draft.distortion, options) <= options.max_stretch) {
+      break;
+    }
     const auto more = seams_to_shrunk(surface, region, draft.disc, draft.uv, kShrunk);
     if (more.empty()) break;
     draft.seams = merged(draft.seams, more);

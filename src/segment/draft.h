@@ -13,7 +13,7 @@ namespace wrapatlas {
 struct Draft {
   std::vector<std::uint32_t> faces;  ///< of the surface
   std::vector<std::uint32_t> seams;  ///< corners of the surface, as cut_to_disc takes them
-  Disc disc;
+  CutChart disc;
   std::vector<Vec2> uv;  ///< per point of the disc; empty: not flattened
   Distortion distortion;
   bool used_lscm = false;

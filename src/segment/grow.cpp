@@ -27,6 +27,11 @@ double distance(const Region& region, const FaceShapes& shapes, std::uint32_t a,
   return length(shapes.centroid[region.faces[a]] - shapes.centroid[region.faces[b]]);
 }
 
+double edge_length(const Surface& surface, std::uint32_t corner) {
+  return length(surface.points[surface.corner_vertex[corner]] -
+                surface.points[surface.corner_vertex[surface.next(corner)]]);
+}
+
 double step_cost(const Region& region, const FaceShapes& shapes, std::uint32_t from,
                  std::uint32_t to, const Vec3& normal) {
   const double apart = kNormalsApart - dot(normal, shapes.normal[region.faces[to]]);
@@ -133,6 +138,51 @@ std::vector<std::uint32_t> far_seeds(const Region& region, const FaceShapes& sha
   return seeds;
 }
 
+void smooth_borders(const Surface& surface, const Region& region, Growth& growth) {
+  std::vector<std::uint32_t> size;
+  for (const std::uint32_t chart : growth.seed_of) {
+    size.resize(std::max<std::size_t>(size.size(), chart + std::size_t{1}), 0);
+    ++size[chart];
+  }
+  std::vector<std::uint32_t> waiting(region.size());
+  for (std::uint32_t i = 0; i < region.size(); ++i) waiting[i] = region.size() - 1 - i;
+  std::vector<std::pair<std::uint32_t, double>> shares;  // of charts in the face's border
+  while (!waiting.empty()) {
+    const std::uint32_t face = waiting.back();
+    waiting.pop_back();
+    const std::uint32_t own = growth.seed_of[face];
+    double own_length = 0;
+    std::uint32_t own_edges = 0;
+    shares.clear();
+    for (const Region::Arc arc : region.arcs_of(face)) {
+      const std::uint32_t chart = growth.seed_of[arc.to];
+      const double edge = edge_length(surface, arc.corner);
+      if (chart == own) {
+        own_length += edge;
+        ++own_edges;
+        continue;
+      }
+      const auto known = std::find_if(shares.begin(), shares.end(),
+                                      [&](const auto& share) { return share.first == chart; });
+      if (known == shares.end()) {
+        shares.emplace_back(chart, edge);
+      } else {
+        known->second += edge;
+      }
+    }
+    // A face that holds its chart by one edge alone does not part it by leaving.
+    if (shares.empty() || own_edges > 1 || size[own] == 1) continue;
+    const auto best =
+        std::max_element(shares.begin(), shares.end(),
+                         [](const auto& a, const auto& b) { return a.second < b.second; });
+    if (best->second <= own_length * (1 + 1e-9)) continue;
+    growth.seed_of[face] = best->first;
+    --size[own];
+    ++size[best->first];
+    for (const Region::Arc arc : region.arcs_of(face)) waiting.push_back(arc.to);
+  }
+}
+
 Growth grow_charts(const Surface& surface, const Region& region, const FaceShapes& shapes,
                    std::uint32_t count, int rounds) {
   std::vector<std::uint32_t> seeds = far_seeds(region, shapes, count);
@@ -143,6 +193,7 @@ Growth grow_charts(const Surface& surface, const Region& region, const FaceShape
     if (!seen.insert(seeds).second) break;
     growth = grow(region, shapes, seeds);
   }
+  smooth_borders(surface, region, growth);
   return growth;
 }
 

@@ -35,8 +35,12 @@ std::vector<std::uint32_t> middles(const Surface& surface, const Region& region,
 std::vector<std::uint32_t> far_seeds(const Region& region, const FaceShapes& shapes,
                                      std::uint32_t count);
 
+/// Faces that stick out into another chart go over to it, if that makes the border between them
+/// shorter, until none does. No chart is parted or lost by it.
+void smooth_borders(const Surface& surface, const Region& region, Growth& growth);
+
 /// Grows from `count` seeds that are far apart, then moves seeds to the middles of their charts and
-/// grows again, until the seeds repeat or `rounds` are over.
+/// grows again, until the seeds repeat or `rounds` are over. Borders are smoothed.
 Growth grow_charts(const Surface& surface, const Region& region, const FaceShapes& shapes,
                    std::uint32_t count, int rounds);
 

@@ -10,7 +10,7 @@ namespace {
 /// The edges of a disc between its points, and shortest ways along them.
 class EdgeGraph {
  public:
-  explicit EdgeGraph(const Disc& disc) : disc_(disc) {
+  explicit EdgeGraph(const CutChart& disc) : disc_(disc) {
     const std::size_t points = disc.points.size();
     begin_.assign(points + 1, 0);
     for_each_edge([&](std::uint32_t, std::uint32_t a, std::uint32_t b) {
@@ -80,7 +80,7 @@ class EdgeGraph {
     }
   }
 
-  const Disc& disc_;
+  const CutChart& disc_;
   std::vector<std::uint32_t> begin_;
   std::vector<Arc> arcs_;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> through_;
@@ -88,8 +88,8 @@ class EdgeGraph {
 };
 
 /// Adds both corners of the edge.
-void add_edge(const Surface& surface, const Region& region, const Disc& disc, std::uint32_t corner,
-              std::vector<std::uint32_t>& seams) {
+void add_edge(const Surface& surface, const Region& region, const CutChart& disc,
+              std::uint32_t corner, std::vector<std::uint32_t>& seams) {
   const std::uint32_t face = disc.corner_face[corner];
   const std::uint32_t of_surface =
       surface.face_begin[region.faces[face]] + corner - disc.corner_begin[face];
@@ -97,7 +97,7 @@ void add_edge(const Surface& surface, const Region& region, const Disc& disc, st
   if (surface.corner_twin[of_surface] != kNone) seams.push_back(surface.corner_twin[of_surface]);
 }
 
-std::vector<bool> border_points(const Disc& disc) {
+std::vector<bool> border_points(const CutChart& disc) {
   std::vector<bool> is_border(disc.points.size(), false);
   for (std::uint32_t c = 0; c < disc.corner_point.size(); ++c) {
     if (disc.corner_twin[c] != kNone) continue;
@@ -108,7 +108,7 @@ std::vector<bool> border_points(const Disc& disc) {
 }
 
 /// Area around each point in the plane, over that in space.
-std::vector<double> growth_of_points(const Disc& disc, std::span<const Vec2> uv) {
+std::vector<double> growth_of_points(const CutChart& disc, std::span<const Vec2> uv) {
   std::vector<double> plane(disc.points.size(), 0), space(disc.points.size(), 0);
   for (const auto& [a, b, c] : disc.triangles) {
     const double flat = std::max(0.0, signed_area2(uv[a], uv[b], uv[c]));
@@ -128,7 +128,7 @@ std::vector<double> growth_of_points(const Disc& disc, std::span<const Vec2> uv)
 }  // namespace
 
 std::vector<std::uint32_t> cut_open(const Surface& surface, const Region& region,
-                                    const Disc& disc) {
+                                    const CutChart& disc) {
   EdgeGraph graph(disc);
   const auto never = [](std::uint32_t) { return false; };
   const std::uint32_t one = graph.walk(0, never);
@@ -142,7 +142,8 @@ std::vector<std::uint32_t> cut_open(const Surface& surface, const Region& region
 }
 
 std::vector<std::uint32_t> seams_to_shrunk(const Surface& surface, const Region& region,
-                                           const Disc& disc, std::span<const Vec2> uv, double low) {
+                                           const CutChart& disc, std::span<const Vec2> uv,
+                                           double low) {
   const std::vector<double> growth = growth_of_points(disc, uv);
   std::vector<bool> is_border = border_points(disc);
   EdgeGraph graph(disc);

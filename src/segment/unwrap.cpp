@@ -60,7 +60,7 @@ class Shelves {
   double height_ = 0;  ///< of the shelf in use
 };
 
-double border_length(const Disc& disc) {
+double border_length(const CutChart& disc) {
   double sum = 0;
   for (std::uint32_t c = 0; c < disc.corner_point.size(); ++c) {
     if (disc.corner_twin[c] != kNone) continue;
@@ -69,7 +69,7 @@ double border_length(const Disc& disc) {
   return sum;
 }
 
-double area_of(const Disc& disc) {
+double area_of(const CutChart& disc) {
   double sum = 0;
   for (const auto& [a, b, c] : disc.triangles) {
     sum += 0.5 * length(cross(disc.points[b] - disc.points[a], disc.points[c] - disc.points[a]));

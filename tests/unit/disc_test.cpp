@@ -32,12 +32,12 @@ Whole whole(const Mesh& mesh) {
   return w;
 }
 
-Disc disc_of(const Whole& w, std::span<const std::uint32_t> seams = {}) {
+CutChart disc_of(const Whole& w, std::span<const std::uint32_t> seams = {}) {
   return cut_to_disc(w.surface, w.region, w.shapes, seams, 0);
 }
 
 /// Connected, of Euler characteristic 1, with one border that meets no point twice.
-void expect_disc(const Disc& disc) {
+void expect_disc(const CutChart& disc) {
   std::set<std::pair<std::uint32_t, std::uint32_t>> edges;
   std::vector<std::uint32_t> next(disc.points.size(), kNone);
   std::size_t border = 0;
@@ -82,12 +82,12 @@ TEST(CutToDisc, ATubeIsCutAlongOneWay) {
 
 TEST(CutToDisc, ASphereKeepsOneEdgeOpenUnlessThereAreSeams) {
   const Whole w = whole(test::ball(6));
-  const Disc closed = disc_of(w);
+  const CutChart closed = disc_of(w);
   EXPECT_TRUE(closed.is_closed);
   EXPECT_EQ(closed.points.size(), w.surface.points.size());
   const auto seams = cut_open(w.surface, w.region, closed);
   EXPECT_TRUE(std::is_sorted(seams.begin(), seams.end()));
-  const Disc open = disc_of(w, seams);
+  const CutChart open = disc_of(w, seams);
   EXPECT_FALSE(open.is_closed);
   expect_disc(open);
   EXPECT_EQ(open.points.size(), w.surface.points.size() + seams.size() / 2 - 1);
@@ -104,7 +104,7 @@ TEST(CutToDisc, KeepsEverySeam) {
     seams.push_back(w.surface.corner_twin[c]);
   }
   std::sort(seams.begin(), seams.end());
-  const Disc disc = disc_of(w, seams);
+  const CutChart disc = disc_of(w, seams);
   expect_disc(disc);
   EXPECT_GT(disc.points.size(), w.surface.points.size());
 }
@@ -119,7 +119,7 @@ TEST(SeamsToShrunk, ReachTheTip) {
     if (w.owners.chart[f] == 0) upper.push_back(f);
   }
   w.region = make_region(w.surface, upper, w.owners, 0);
-  const Disc sock = disc_of(w);
+  const CutChart sock = disc_of(w);
   expect_disc(sock);
   std::vector<Vec2> uv;
   std::uint32_t tip = 0;
@@ -131,7 +131,7 @@ TEST(SeamsToShrunk, ReachTheTip) {
   }
   const auto seams = seams_to_shrunk(w.surface, w.region, sock, uv, 0.25);
   ASSERT_FALSE(seams.empty());
-  const Disc cut = disc_of(w, seams);
+  const CutChart cut = disc_of(w, seams);
   expect_disc(cut);
   std::vector<bool> is_border(cut.points.size(), false);
   for (std::uint32_t c = 0; c < cut.corner_point.size(); ++c) {

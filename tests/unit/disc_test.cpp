@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <numeric>
+#include <random>
 #include <set>
 
 #include "segment/disc.h"
@@ -168,6 +169,52 @@ TEST(Grow, EveryFaceGoesToOneOfItsSeeds) {
       }
     }
     EXPECT_EQ(part.size(), size);
+  }
+}
+
+TEST(Grow, SmoothBordersAreShorterAndPartNoChart) {
+  const Whole w = whole(test::torus(10));
+  std::mt19937 random(4);
+  const auto border = [&](const Growth& growth) {
+    double sum = 0;
+    for (std::uint32_t f = 0; f < w.region.size(); ++f) {
+      for (const Region::Arc arc : w.region.arcs_of(f)) {
+        if (growth.seed_of[f] == growth.seed_of[arc.to]) continue;
+        sum += length(w.surface.points[w.surface.corner_vertex[arc.corner]] -
+                      w.surface.points[w.surface.corner_vertex[w.surface.next(arc.corner)]]);
+      }
+    }
+    return sum;
+  };
+  const auto parts = [&](const Growth& growth) {  // connected ones
+    std::vector<bool> reached(w.region.size(), false);
+    std::size_t count = 0;
+    for (std::uint32_t f = 0; f < w.region.size(); ++f) {
+      if (reached[f]) continue;
+      ++count;
+      std::vector<std::uint32_t> part{f};
+      reached[f] = true;
+      for (std::size_t i = 0; i < part.size(); ++i) {
+        for (const Region::Arc arc : w.region.arcs_of(part[i])) {
+          if (reached[arc.to] || growth.seed_of[arc.to] != growth.seed_of[f]) continue;
+          reached[arc.to] = true;
+          part.push_back(arc.to);
+        }
+      }
+    }
+    return count;
+  };
+  for (int trial = 0; trial < 20; ++trial) {
+    std::vector<std::uint32_t> seeds;
+    for (int i = 0; i < 12; ++i) {
+      const auto seed = static_cast<std::uint32_t>(random() % w.region.size());
+      if (std::find(seeds.begin(), seeds.end(), seed) == seeds.end()) seeds.push_back(seed);
+    }
+    Growth growth = grow(w.region, w.shapes, seeds);
+    const double before = border(growth);
+    smooth_borders(w.surface, w.region, growth);
+    EXPECT_LT(border(growth), before);
+    EXPECT_EQ(parts(growth), seeds.size());
   }
 }
 

@@ -1,6 +1,7 @@
 #include "segment/draft.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <iterator>
 
@@ -26,12 +27,16 @@ std::vector<std::uint32_t> merged(const std::vector<std::uint32_t>& a,
 }
 
 void flatten_draft(Draft& draft, const UnwrapOptions& options) {
+  const auto start = std::chrono::steady_clock::now();
   draft.uv.clear();
-  draft.is_good = false;
   const auto flat = flatten_disc(draft.disc.points, draft.disc.triangles, options.flatten);
+  if (flat) {
+    draft.uv = flat->uv;
+    untangle(draft.uv, draft.disc.triangles);
+  }
+  draft.flatten_seconds +=
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (!flat) return;
-  draft.uv = flat->uv;
-  untangle(draft.uv, draft.disc.triangles);
   draft.used_lscm = flat->method == FlattenMethod::lscm;
   draft.distortion = measure_distortion(draft.disc.points, draft.uv, draft.disc.triangles);
 }

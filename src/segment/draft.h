@@ -17,6 +17,7 @@ struct Draft {
   std::vector<Vec2> uv;  ///< per point of the disc; empty: not flattened
   Distortion distortion;
   bool used_lscm = false;
+  double flatten_seconds = 0;  ///< of all the times it was flattened
   bool is_good = false;  ///< within the stretch asked for, no triangle flipped, no overlap
 };
 

@@ -8,6 +8,7 @@
 #include "segment/segment.h"
 
 #include <algorithm>
+#include <atomic>
 #include <iterator>
 #include <set>
 
@@ -31,7 +32,7 @@ class Segmenter {
   Segmenter(const Surface& surface, const UnwrapOptions& options)
       : surface_(surface), options_(options), shapes_(face_shapes(surface)) {}
 
-  Result<std::vector<Draft>> run() {
+  Result<Segmentation> run() {
     owners_.chart.assign(surface_.face_count(), kNone);
     owners_.place.assign(surface_.face_count(), 0);
     grow_components();
@@ -41,7 +42,7 @@ class Segmenter {
     if (stopped_) {
       return Error{ErrorKind::interrupted, "", "stopped before all charts were made", ""};
     }
-    return in_order();
+    return Segmentation{in_order(), 1e-9 * double(flatten_nanoseconds_)};
   }
 
  private:
@@ -119,7 +120,7 @@ class Segmenter {
     parallel_for(count, thread_count(options_.threads), [&](std::size_t i) {
       const auto chart = static_cast<std::uint32_t>(first + i);
       const Region region = make_region(surface_, std::move(pending_[i]), owners_, chart);
-      Draft draft = make_draft(surface_, region, shapes_, {}, options_);
+      Draft draft = try_region(region, {}, options_);
       if (draft.is_good || region.size() == 1) {
         drafts_[chart] = std::move(draft);
       } else {
@@ -134,6 +135,13 @@ class Segmenter {
       }
       for (Faces& faces : parts[i]) pending_.push_back(std::move(faces));
     }
+  }
+
+  Draft try_region(const Region& region, std::vector<std::uint32_t> seams,
+                   const UnwrapOptions& options) {
+    Draft draft = make_draft(surface_, region, shapes_, std::move(seams), options);
+    flatten_nanoseconds_ += static_cast<std::int64_t>(1e9 * draft.flatten_seconds);
+    return draft;
   }
 
   struct Border {
@@ -214,7 +222,7 @@ class Segmenter {
                drafts_[border.b].seams.begin(), drafts_[border.b].seams.end(),
                std::back_inserter(seams));
     const Region region = make_region(surface_, std::move(faces), owners_, border.a, border.b);
-    return make_draft(surface_, region, shapes_, std::move(seams), options);
+    return try_region(region, std::move(seams), options);
   }
 
   /// More stretch, step by step, until there are no more charts than asked for.
@@ -244,12 +252,13 @@ class Segmenter {
   std::vector<Faces> pending_;
   std::vector<Draft> drafts_;  // by the number in owners_.chart; without faces: split or merged
   std::size_t alive_ = 0, faces_done_ = 0;
+  std::atomic<std::int64_t> flatten_nanoseconds_ = 0;
   bool stopped_ = false;
 };
 
 }  // namespace
 
-Result<std::vector<Draft>> segment_surface(const Surface& surface, const UnwrapOptions& options) {
+Result<Segmentation> segment_surface(const Surface& surface, const UnwrapOptions& options) {
   return Segmenter(surface, options).run();
 }
 

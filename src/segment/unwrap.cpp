@@ -132,18 +132,19 @@ Result<Unwrapping> unwrap(const Mesh& mesh, const UnwrapOptions& options) {
     return Error{ErrorKind::input, "mesh", "its faces have no area",
                  "export it again: the points of each face lie on one line"};
   }
-  const auto drafts = segment_surface(*surface, options);
-  if (!drafts) return drafts.error();
+  const auto cut = segment_surface(*surface, options);
+  if (!cut) return cut.error();
   result.segment_seconds = seconds_now() - start - result.surface_seconds;
 
+  result.flatten_seconds = cut->flatten_seconds;
   result.mesh = mesh;
   result.surface = surface->report;
   result.face_chart.assign(mesh.face_count(), kNone);
   result.face_stretch.assign(mesh.face_count(), 1);
   double area = 0;
-  for (const Draft& draft : *drafts) area += area_of(draft.disc);
+  for (const Draft& draft : cut->charts) area += area_of(draft.disc);
   Shelves shelves(result.mesh, area);
-  for (const Draft& draft : *drafts) add_draft(*surface, draft, shelves, result);
+  for (const Draft& draft : cut->charts) add_draft(*surface, draft, shelves, result);
   for (const std::uint32_t face : surface->folded_faces) add_folded(face, shelves, result);
   return result;
 }

@@ -1,108 +1,148 @@
-// A layout from angles: each triangle says where its third corner lies as seen from the others, and
-// all are met as nearly as can be. With a mesh's own angles these are least squares conformal maps:
-// Levy, Petitjean, Ray & Maillot (SIGGRAPH 2002), here as Zayer, Levy & Seidel (SGP 2007), section
-// 4, have it, with points as complex numbers.
-#include <Eigen/SparseCholesky>
-#include <cmath>
-#include <complex>
-#include <numbers>
+// Lévy, Petitjean, Ray & Maillot 2002, Least squares conformal maps (SIGGRAPH 2002), section 2.3,
+// with shapes in place of local coordinates, so that it lays out given angles as well. With U in
+// the complex plane each triangle asks for
+//   U2 - U0 = z (U1 - U0),
+// and misses it by 2 |b| h if the map to the plane is w -> a w + b conj(w) and h is the height over
+// edge 01. The conformal energy, area * |b|^2, is thus the squared error times edge / (8 h): as
+// edge 01 is 1 to our shapes and h the imaginary part of z, errors weigh 1 / h. The normal
+// equations are Hermitian; complex, they have half the unknowns of the paper's real ones. Two
+// points of the border, far from each other, are pinned.
+#include "parameterize/layout.h"
 
-#include "parameterize/angles.h"
+#include <algorithm>
+#include <array>
+#include <complex>
+
+#include "parameterize/eigen.h"
+#include "parameterize/pattern.h"
 
 namespace wrapatlas {
 namespace {
 
 using Complex = std::complex<double>;
-using Matrix = Eigen::SparseMatrix<Complex>;
-using Solver = Eigen::SimplicialLDLT<Matrix, Eigen::Lower, Eigen::AMDOrdering<int>>;
 
-/// Two points of the border that lie far apart.
-std::array<std::uint32_t, 2> far_points(std::span<const Vec3> points,
-                                        const std::vector<bool>& is_border) {
-  const auto farthest = [&](const Vec3& from) {
-    std::uint32_t best = kNone;
-    double most = -1;
-    for (std::uint32_t p = 0; p < points.size(); ++p) {
-      const double way = length(points[p] - from);
-      if (!is_border[p] || way <= most) continue;
-      most = way;
-      best = p;
+/// Flatter triangles count as this flat: those of no area would outweigh all others.
+constexpr double kFlattest = 0.025;
+
+std::size_t farthest_on_border(const Disc& disc, std::size_t from) {
+  double farthest = 0;
+  std::size_t found = (from + disc.border.size() / 2) % disc.border.size();
+  for (std::size_t i = 0; i < disc.border.size(); ++i) {
+    const Vec3 d = disc.points[disc.border[i]] - disc.points[disc.border[from]];
+    if (dot(d, d) > farthest) {
+      farthest = dot(d, d);
+      found = i;
     }
-    return best;
+  }
+  return found;
+}
+
+class Layout {
+ public:
+  Layout(const Disc& disc, std::span<const std::uint32_t> order, std::span<const Shape> shapes)
+      : disc_(disc), shapes_(shapes), at_(disc.points.size()) {
+    const std::size_t left = farthest_on_border(disc, 0), right = farthest_on_border(disc, left);
+    std::vector<bool> free(disc.points.size(), true);
+    free[disc.border[left]] = free[disc.border[right]] = false;
+    at_[disc.border[right]] = 1;
+    pattern_ = make_pattern(disc, order, free);
+  }
+
+  bool solve() {
+    assemble();
+    factor_.analyzePattern(matrix_);
+    factor_.factorize(matrix_);
+    if (factor_.info() != Eigen::Success) return false;
+    if (!(factor_.vectorD().real().minCoeff() > 0)) return false;
+    // Maps as good as conformal are many, and make the equations worse by n^2; but what rounding
+    // took from the first step the second gives back, as it starts from the triangles' errors.
+    step();
+    step();
+    return true;
+  }
+
+  [[nodiscard]] std::vector<Vec2> points() const {
+    std::vector<Vec2> points;
+    points.reserve(at_.size());
+    for (const Complex& p : at_) points.push_back({p.real(), p.imag()});
+    return points;
+  }
+
+ private:
+  /// What a triangle's error has of each of its corners, and which corners those are.
+  struct Row {
+    std::array<Complex, 3> factor;
+    std::array<std::size_t, 3> corner;
+    double weight;
   };
-  const std::uint32_t one = farthest(points[0]);
-  std::uint32_t other = farthest(points[one]);
-  for (std::uint32_t p = 0; other == one && p < points.size(); ++p) {
-    if (is_border[p] && p != one) other = p;  // all at one place
+  [[nodiscard]] Row row_of(std::size_t triangle) const {
+    const Shape& shape = shapes_[triangle];
+    const std::size_t second = next3(shape.first);
+    return {{shape.ratio - 1.0, -shape.ratio, 1.0},
+            {shape.first, second, next3(second)},
+            1 / std::max(shape.ratio.imag(), kFlattest)};
   }
-  return {one, other};
-}
 
-/// weight * (U2 - (1 - z) U0 - z U1) = 0, corner 2 being the one of the largest sine.
-struct Row {
-  std::array<std::uint32_t, 3> at{};
-  std::array<Complex, 3> factor;
-};
-
-Row row_of(const Triangle& triangle, const Angles& angles, double weight) {
-  std::size_t largest = 0;
-  for (const std::size_t i : {1U, 2U}) {
-    if (std::sin(angles[i]) > std::sin(angles[largest])) largest = i;
-  }
-  const std::size_t i0 = (largest + 1) % 3, i1 = (largest + 2) % 3;
-  const Complex z = std::polar(std::sin(angles[i1]) / std::sin(angles[largest]), angles[i0]);
-  return {{triangle[i0], triangle[i1], triangle[largest]},
-          {weight * (z - 1.0), -weight * z, Complex(weight)}};
-}
-
-}  // namespace
-
-std::vector<Vec2> lay_out(std::span<const Vec3> points, std::span<const Triangle> triangles,
-                          std::span<const Angles> angles, const std::vector<bool>& is_border) {
-  const auto [one, other] = far_points(points, is_border);
-  std::vector<int> number(points.size(), -1);
-  int count = 0;
-  for (std::uint32_t p = 0; p < points.size(); ++p) {
-    if (p != one && p != other) number[p] = count++;
-  }
-  double area = 0;
-  for (const Triangle& t : triangles) area += triangle_area(points, t);
-  const double least = area > 0 ? 1e-6 * area / double(triangles.size()) : 1;
-
-  std::vector<Eigen::Triplet<Complex>> entries;
-  entries.reserve(6 * triangles.size());
-  Eigen::VectorXcd right = Eigen::VectorXcd::Zero(count);
-  for (std::size_t t = 0; t < triangles.size(); ++t) {
-    const double weight = std::sqrt(std::max(least, triangle_area(points, triangles[t])));
-    const Row row = row_of(triangles[t], angles[t], weight);
-    for (std::size_t i = 0; i < 3; ++i) {
-      const int a = number[row.at[i]];
-      if (a < 0) continue;
-      for (std::size_t j = 0; j < 3; ++j) {
-        const Complex value = std::conj(row.factor[i]) * row.factor[j];
-        const int b = number[row.at[j]];
-        if (b >= 0 && b <= a) entries.emplace_back(a, b, value);
-        if (row.at[j] == other) right[a] -= value;  // which lies at 1, the one at 0
+  void assemble() {
+    const int entries = pattern_.begin.back();
+    matrix_.resize(pattern_.size(), pattern_.size());
+    matrix_.resizeNonZeros(entries);
+    std::copy(pattern_.begin.begin(), pattern_.begin.end(), matrix_.outerIndexPtr());
+    std::copy(pattern_.row.begin(), pattern_.row.end(), matrix_.innerIndexPtr());
+    Complex* value = matrix_.valuePtr();
+    std::fill_n(value, entries, 0.0);
+    for (std::size_t t = 0; t < shapes_.size(); ++t) {
+      const Row row = row_of(t);
+      for (std::size_t i = 0; i < 3; ++i) {
+        const int column = pattern_.column[disc_.triangles[t][row.corner[i]]];
+        if (column < 0) continue;
+        value[pattern_.begin[column + 1] - 1] += row.weight * std::norm(row.factor[i]);
+        const int entry = pattern_.edge_entry[3 * t + row.corner[i]];
+        if (entry < 0) continue;
+        const std::size_t j = next3(i);
+        const Complex product = row.weight * std::conj(row.factor[i]) * row.factor[j];
+        const int other = pattern_.column[disc_.triangles[t][row.corner[j]]];
+        value[entry] += column < other ? product : std::conj(product);
       }
     }
   }
-  Matrix system(count, count);
-  system.setFromTriplets(entries.begin(), entries.end());
-  Eigen::VectorXcd solution(count);
-  if (count > 0) {
-    const Solver solver(system);
-    if (solver.info() != Eigen::Success) return {};
-    solution = solver.solve(right);
+
+  /// From where the points are to where they should be.
+  void step() {
+    Eigen::VectorXcd downhill = Eigen::VectorXcd::Zero(pattern_.size());
+    for (std::size_t t = 0; t < shapes_.size(); ++t) {
+      const Row row = row_of(t);
+      Complex error = 0;
+      for (std::size_t i = 0; i < 3; ++i) {
+        error += row.factor[i] * at_[disc_.triangles[t][row.corner[i]]];
+      }
+      for (std::size_t i = 0; i < 3; ++i) {
+        const int column = pattern_.column[disc_.triangles[t][row.corner[i]]];
+        if (column >= 0) downhill[column] -= row.weight * std::conj(row.factor[i]) * error;
+      }
+    }
+    const Eigen::VectorXcd change = factor_.solve(downhill);
+    for (std::size_t p = 0; p < at_.size(); ++p) {
+      if (pattern_.column[p] >= 0) at_[p] += change[pattern_.column[p]];
+    }
   }
-  std::vector<Vec2> plane(points.size());
-  plane[other] = {1, 0};
-  for (std::size_t p = 0; p < points.size(); ++p) {
-    if (number[p] < 0) continue;
-    const Complex at = solution[number[p]];
-    if (!std::isfinite(at.real()) || !std::isfinite(at.imag())) return {};
-    plane[p] = {at.real(), at.imag()};
-  }
-  return plane;
+
+  const Disc& disc_;
+  std::span<const Shape> shapes_;
+  std::vector<Complex> at_;  // per point
+  Pattern pattern_;
+  Eigen::SparseMatrix<Complex> matrix_;
+  Eigen::SimplicialLDLT<Eigen::SparseMatrix<Complex>, Eigen::Upper, Eigen::NaturalOrdering<int>>
+      factor_;
+};
+
+}  // namespace
+
+std::optional<std::vector<Vec2>> lay_out(const Disc& disc, std::span<const std::uint32_t> order,
+                                         std::span<const Shape> shapes) {
+  Layout layout(disc, order, shapes);
+  if (!layout.solve()) return std::nullopt;
+  return layout.points();
 }
 
 }  // namespace wrapatlas

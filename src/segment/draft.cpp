@@ -17,7 +17,7 @@ constexpr double kShrunk = 0.25;
 constexpr int kMostSeamRounds = 2;
 
 /// More than this is split without a look: flattening it takes too long.
-constexpr std::size_t kMostTriangles = 120000;
+constexpr std::size_t kMostTriangles = 60000;
 
 std::vector<std::uint32_t> merged(const std::vector<std::uint32_t>& a,
                                   const std::vector<std::uint32_t>& b) {

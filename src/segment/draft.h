@@ -18,7 +18,7 @@ struct Draft {
   Distortion distortion;
   bool used_lscm = false;
   double flatten_seconds = 0;  ///< of all the times it was flattened
-  bool is_good = false;  ///< within the stretch asked for, no triangle flipped, no overlap
+  bool is_good = false;        ///< within the stretch asked for, no triangle flipped, no overlap
 };
 
 /// Cuts, flattens and judges the region, with more seams if that helps. `draft.seams` to begin

@@ -24,7 +24,7 @@ constexpr int kSplitRounds = 4;
 /// Charts to begin with: few, as those that fail are split. Of one component, by its faces.
 std::uint32_t first_charts(std::size_t faces) {
   if (faces < 200) return 1;
-  return static_cast<std::uint32_t>(std::clamp<std::size_t>(faces / 4000, 6, 200));
+  return static_cast<std::uint32_t>(std::clamp<std::size_t>(faces / 8000, 6, 200));
 }
 
 class Segmenter {
@@ -147,6 +147,7 @@ class Segmenter {
   struct Border {
     std::uint32_t a, b;
     double length;
+    double share = 0;  ///< of all that the one with less of it has in common with others
   };
 
   /// Pairs of neighbours, longest common border first.
@@ -160,7 +161,7 @@ class Segmenter {
       if (a == b) continue;
       const double size = length(surface_.points[surface_.corner_vertex[c]] -
                                  surface_.points[surface_.corner_vertex[t]]);
-      borders.push_back({std::min(a, b), std::max(a, b), size});
+      borders.push_back({std::min(a, b), std::max(a, b), size, 0});
     }
     std::stable_sort(borders.begin(), borders.end(), [](const Border& x, const Border& y) {
       return x.a != y.a ? x.a < y.a : x.b < y.b;
@@ -174,8 +175,16 @@ class Segmenter {
       }
     }
     borders.resize(kept);
+    std::vector<double> round(drafts_.size(), 0);  // lengths of whole borders
+    for (const Border& border : borders) {
+      round[border.a] += border.length;
+      round[border.b] += border.length;
+    }
+    for (Border& border : borders) {
+      border.share = border.length / std::min(round[border.a], round[border.b]);
+    }
     std::stable_sort(borders.begin(), borders.end(),
-                     [](const Border& x, const Border& y) { return x.length > y.length; });
+                     [](const Border& x, const Border& y) { return x.share > y.share; });
     return borders;
   }
 

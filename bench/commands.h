@@ -22,10 +22,16 @@ struct IoBenchOptions {
   std::string keep;
 };
 
+struct FlattenBenchOptions {
+  std::string folder;
+  int stride = 1;
+};
+
 int bench_pack(const ChartOptions& charts, const PackBenchOptions& bench);
 int bench_raster(const ChartOptions& options);
 int bench_slide(const ChartOptions& options);
 int bench_io(const IoBenchOptions& options);
 int bench_mesh();
+int bench_flatten(const FlattenBenchOptions& options);
 
 }  // namespace wrapatlas::bench

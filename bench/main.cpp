@@ -1,5 +1,6 @@
 // wrapatlas_bench: programs that time one stage each and print it beside something known.
 #include <CLI/CLI.hpp>
+#include <filesystem>
 
 #include "chart_files.h"
 #include "commands.h"
@@ -53,6 +54,15 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   io_app.add_option("--keep", io.keep, "Only write the two files, into this folder, and keep them");
   CLI::App& mesh_app = *app.add_subcommand("mesh", "Welding and triangulating");
+  FlattenBenchOptions flatten;
+  flatten.folder = (default_chart_folder().parent_path() / "psb").string();
+  if (!std::filesystem::exists(flatten.folder)) flatten.folder = default_chart_folder().string();
+  CLI::App& flatten_app = *app.add_subcommand("flatten", "Angle based flattening, beside LSCM");
+  flatten_app.add_option("folder", flatten.folder, "Models, with or without UVs")
+      ->capture_default_str();
+  flatten_app.add_option("--stride", flatten.stride, "Take every N-th file alone")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
   CLI11_PARSE(app, argc, argv);
 
   print_machine();
@@ -60,5 +70,6 @@ int main(int argc, char** argv) {
   if (raster_app.parsed()) return bench_raster(charts);
   if (slide_app.parsed()) return bench_slide(charts);
   if (mesh_app.parsed()) return bench_mesh();
+  if (flatten_app.parsed()) return bench_flatten(flatten);
   return io_app.parsed() ? bench_io(io) : 2;
 }

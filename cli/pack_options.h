@@ -5,6 +5,7 @@
 #include <string>
 
 #include "options.h"
+#include "output_paths.h"
 #include "wrapatlas/picture.h"
 
 namespace wrapatlas::cli {
@@ -26,8 +27,9 @@ struct PackArguments {
   int texcoord = 0;
   bool quiet = false, verbose = false, no_inner = false;
   PictureOptions picture;
-  std::vector<std::string> notes;  ///< on the options, for the user
-  PackOptions options;             ///< complete after resolve_pack_options, but for the density
+  std::vector<OutputPath> more_outputs;  ///< that the command adds to -o, --image and --json
+  std::vector<std::string> notes;        ///< on the options, for the user
+  PackOptions options;  ///< complete after resolve_pack_options, but for the density
 
   /// Texels to sides that do not wrap, as asked or by default.
   [[nodiscard]] double margin_in_force() const {

@@ -1,6 +1,8 @@
 // What `wrapatlas pack` says about its work: JSON, a summary, notes.
 #pragma once
 
+#include <functional>
+
 #include "common.h"
 #include "pack_options.h"
 #include "wrapatlas/charts.h"
@@ -18,6 +20,8 @@ struct PackOutcome {
   std::string command = "pack";
   Json more = Json::object();  ///< what the command has to add to the report
   std::vector<std::pair<std::string, double>> stages;  ///< seconds of work before the packing
+  /// Writes what the command has besides model, picture and report; may be empty.
+  std::function<Status(const Mesh&, const AtlasMesh&, const ChartSet&, const Packing&)> write_more;
 };
 
 /// Per page the areas of its charts over its own.

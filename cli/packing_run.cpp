@@ -81,9 +81,9 @@ Result<Packing> pack_with_progress(PackArguments& arguments, const ChartSet& cha
 }
 
 /// Model, picture and report: all of them, or none.
-Status write_outputs(const PackArguments& arguments, const Model& model, const ChartSet& charts,
-                     const AtlasMesh& atlas, const Packing& packing, double run_start,
-                     PackOutcome& outcome) {
+Status write_outputs(const PackArguments& arguments, const Model& model, const Mesh& mesh,
+                     const ChartSet& charts, const AtlasMesh& atlas, const Packing& packing,
+                     double run_start, PackOutcome& outcome) {
   const double start = seconds_now();
   OutputTransaction outputs;
   if (Status ok = save_model(model, atlas, arguments.output); !ok) return ok;
@@ -93,6 +93,9 @@ Status write_outputs(const PackArguments& arguments, const Model& model, const C
     if (Status ok = save_atlas_picture(arguments.image, charts.charts, packing, picture); !ok) {
       return ok;
     }
+  }
+  if (outcome.write_more) {
+    if (Status ok = outcome.write_more(mesh, atlas, charts, packing); !ok) return ok;
   }
   outcome.write = seconds_now() - start;
   outcome.total = seconds_now() - run_start;
@@ -122,8 +125,10 @@ Status check_outputs(const PackArguments& arguments) {
   if (!arguments.image.empty()) {
     if (const Status ok = check_picture_path(arguments.image); !ok) return ok;
   }
-  const OutputPath outputs[] = {
-      {"-o", arguments.output}, {"--image", arguments.image}, {"--json", arguments.json}};
+  std::vector<OutputPath> outputs = arguments.more_outputs;
+  outputs.push_back({"-o", arguments.output});
+  outputs.push_back({"--image", arguments.image});
+  outputs.push_back({"--json", arguments.json});
   if (const Status ok = refuse_equal_outputs(outputs); !ok) return ok;
   for (const OutputPath& output : outputs) {
     if (output.path.empty() || output.path == "-") continue;
@@ -133,7 +138,9 @@ Status check_outputs(const PackArguments& arguments) {
 }
 
 Status keep_input(const PackArguments& arguments, const Model& model) {
-  const OutputPath outputs[] = {{"--image", arguments.image}, {"--json", arguments.json}};
+  std::vector<OutputPath> outputs = arguments.more_outputs;
+  outputs.push_back({"--image", arguments.image});
+  outputs.push_back({"--json", arguments.json});
   return refuse_overwriting(arguments.input, model, outputs);
 }
 
@@ -166,7 +173,8 @@ int pack_mesh(PackArguments& arguments, const Model& model, const Mesh& mesh, do
     }
     say("{}: warning: {} (--coverage center is not safe)\n", arguments.input, error->what);
   }
-  if (const Status ok = write_outputs(arguments, model, *charts, atlas, *packing, start, outcome);
+  if (const Status ok =
+          write_outputs(arguments, model, mesh, *charts, atlas, *packing, start, outcome);
       !ok) {
     return report_error(ok.error());
   }

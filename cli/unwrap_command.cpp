@@ -11,6 +11,7 @@
 #include "io/file.h"
 #include "packing_run.h"
 #include "wrapatlas/atlas.h"
+#include "wrapatlas/view.h"
 
 namespace wrapatlas::cli {
 namespace {
@@ -30,6 +31,7 @@ struct UnwrapArguments {
   std::optional<double> hard_edges;  ///< degrees
   bool split_materials = false;
   Stage last = Stage::packed;
+  std::string view, heat;  ///< pictures
 };
 
 /// What was mended on the way in.
@@ -114,6 +116,14 @@ Result<Unwrapping> unwrap_with_progress(UnwrapArguments& arguments, const Mesh& 
   return unwrapping;
 }
 
+Status save_view(const UnwrapArguments& arguments, const Mesh& mesh,
+                 std::span<const std::uint32_t> face_chart) {
+  if (arguments.view.empty()) return Done{};
+  ViewOptions options;
+  options.face_labels = face_chart;
+  return save_png(arguments.view, draw_mesh(mesh, colors_of_charts(face_chart), options));
+}
+
 /// Writes the charts unpacked: flat, one beside the other, the longer side of the whole being 1; or
 /// not even that, each as an object of its own.
 int write_unpacked(const UnwrapArguments& arguments, Model& model, Unwrapping& unwrapping,
@@ -135,6 +145,9 @@ int write_unpacked(const UnwrapArguments& arguments, Model& model, Unwrapping& u
   if (const Status ok = save_model(model, keep_texcoords(mesh), pack.output); !ok) {
     return report_error(ok.error());
   }
+  if (const Status ok = save_view(arguments, model.mesh, unwrapping.face_chart); !ok) {
+    return report_error(ok.error());
+  }
   outcome.write = seconds_now() - write_start;
   if (!pack.json.empty()) {
     Json report = {{"version", WRAPATLAS_VERSION},
@@ -153,9 +166,45 @@ int write_unpacked(const UnwrapArguments& arguments, Model& model, Unwrapping& u
   return 0;
 }
 
+/// Stretch of half to four times, each doubling the same step of colour.
+Status save_heat(const UnwrapArguments& arguments, const Unwrapping& unwrapping, const Mesh& mesh,
+                 const AtlasMesh& atlas, const Packing& packing, bool v_points_down) {
+  if (arguments.heat.empty()) return Done{};
+  std::vector<double> doublings;
+  for (const std::uint32_t face : atlas.face_source) {
+    doublings.push_back(std::log2(unwrapping.face_stretch[face]));
+  }
+  const int size = arguments.pack.picture.size;
+  return save_png(arguments.heat,
+                  draw_faces_on_atlas(apply_atlas(mesh, atlas), colors_of_values(doublings, -1, 2),
+                                      packing.width, packing.height, size, v_points_down));
+}
+
+/// What would be ignored, or cannot be done.
+Status check_pictures(const CLI::App& app, UnwrapArguments& arguments) {
+  const bool unpacked = arguments.last != Stage::packed;
+  const std::string why = "nothing is packed", remedy = "leave it out, or --stop-after";
+  const Ignored ignored[] = {
+      {"--heat", unpacked, why, remedy},
+      {"--image", unpacked, why, remedy},
+      {"--heat", arguments.pack.pages.value_or(1) != 1 || arguments.pack.density.has_value(),
+       "it shows one page", "leave it out, or --pages and --density"},
+  };
+  if (const Status ok = refuse_ignored(app, ignored); !ok) return ok;
+  for (const auto& [option, path] :
+       {OutputPath{"--view", arguments.view}, {"--heat", arguments.heat}}) {
+    if (path.empty()) continue;
+    if (const Status ok = check_picture_path(path); !ok) return ok;
+    if (!path.ends_with(".png")) return usage(path, "this picture is of pixels", "write .png");
+    arguments.pack.more_outputs.push_back({option, path});
+  }
+  return Done{};
+}
+
 int run(const CLI::App& app, UnwrapArguments& arguments) {
   const double start = seconds_now();
   PackArguments& pack = arguments.pack;
+  if (const Status ok = check_pictures(app, arguments); !ok) return report_error(ok.error());
   if (const Status ok = resolve_pack_options(app, pack); !ok) return report_error(ok.error());
   if (const Status ok = check_outputs(pack); !ok) return report_error(ok.error());
   if (arguments.hard_edges) {
@@ -192,6 +241,11 @@ int run(const CLI::App& app, UnwrapArguments& arguments) {
   if (arguments.last != Stage::packed) {
     return write_unpacked(arguments, *model, *unwrapping, start, outcome);
   }
+  outcome.write_more = [&](const Mesh& mesh, const AtlasMesh& atlas, const ChartSet& charts,
+                           const Packing& packing) -> Status {
+    if (const Status ok = save_view(arguments, mesh, charts.face_chart); !ok) return ok;
+    return save_heat(arguments, *unwrapping, mesh, atlas, packing, model->v_points_down);
+  };
   return pack_mesh(pack, *model, unwrapping->mesh, start, outcome);
 }
 
@@ -221,6 +275,12 @@ Command make_unwrap_command(CLI::App& parser) {
                "Cut wherever the UVs that the model has are cut");
   app.add_flag("--split-materials", arguments->split_materials,
                "Cut between faces of different materials (OBJ, glTF)");
+  app.add_option("--view", arguments->view,
+                 "Draw the model from two sides, charts in the colours of --image")
+      ->type_name("FILE.png");
+  app.add_option("--heat", arguments->heat,
+                 "Draw the atlas by stretch: from dark, half, to light, four times")
+      ->type_name("FILE.png");
   add_choice(app, "--stop-after", arguments->last, kStages,
              "charts: write each chart as an object of its own, without UVs; flat: with UVs, but "
              "not packed; packed: all of it");

@@ -57,6 +57,11 @@ struct Distortion {
 Distortion measure_distortion(std::span<const Vec3> points, std::span<const Vec2> uv,
                               std::span<const std::array<std::uint32_t, 3>> triangles);
 
+/// L2(T) of each triangle, times root of (A2/A3): the values whose mean square l2 is. Infinite
+/// where a triangle is flipped, 1 where it has no area in space.
+std::vector<double> triangle_stretch(std::span<const Vec3> points, std::span<const Vec2> uv,
+                                     std::span<const std::array<std::uint32_t, 3>> triangles);
+
 /// Does the border of a flattened disc cross or touch itself? With no triangle flipped, a border
 /// that does not is enough for a map without any overlap. The border is the edges of one triangle
 /// alone; it may be several loops. True also where more than two border edges share a point, where

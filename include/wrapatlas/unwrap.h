@@ -49,7 +49,7 @@ struct Unwrapping {
   /// it has in space, no two at the same place.
   Mesh mesh;
   std::vector<std::uint32_t> face_chart;  ///< per face of the mesh
-  std::vector<double> face_stretch;       ///< L2 stretch per face of the mesh, 1: none
+  std::vector<double> face_stretch;       ///< per face of the mesh: triangle_stretch; 0: folded
   std::vector<UnwrappedChart> charts;     ///< faces that are no part of the surface come last
   SurfaceReport surface;
   double surface_seconds = 0, segment_seconds = 0,

@@ -33,19 +33,47 @@ Pair make_pair(const std::array<Vec3, 3>& q, const std::array<Vec2, 3>& p) {
   return {twice_space / 2, twice_plane / 2, dot(s, s), dot(s, t), dot(t, t)};
 }
 
+/// All triangles of a chart, and its area in the plane over that in space.
+struct Pairs {
+  std::vector<Pair> pairs;
+  double plane = 0, density = 0;
+
+  Pairs(std::span<const Vec3> points, std::span<const Vec2> uv,
+        std::span<const std::array<std::uint32_t, 3>> triangles) {
+    pairs.reserve(triangles.size());
+    double space = 0;
+    for (const auto& [i, j, k] : triangles) {
+      pairs.push_back(make_pair({points[i], points[j], points[k]}, {uv[i], uv[j], uv[k]}));
+      space += pairs.back().space;
+      plane += std::abs(pairs.back().plane);
+    }
+    density = plane / space;
+  }
+};
+
 }  // namespace
+
+std::vector<double> triangle_stretch(std::span<const Vec3> points, std::span<const Vec2> uv,
+                                     std::span<const std::array<std::uint32_t, 3>> triangles) {
+  const Pairs all(points, uv, triangles);
+  std::vector<double> stretch;
+  stretch.reserve(triangles.size());
+  for (const Pair& pair : all.pairs) {
+    if (pair.space == 0) {
+      stretch.push_back(1);
+    } else if (pair.plane > 0) {
+      stretch.push_back(std::sqrt(all.density * (pair.a + pair.c) / 2));
+    } else {
+      stretch.push_back(std::numeric_limits<double>::infinity());
+    }
+  }
+  return stretch;
+}
 
 Distortion measure_distortion(std::span<const Vec3> points, std::span<const Vec2> uv,
                               std::span<const std::array<std::uint32_t, 3>> triangles) {
-  std::vector<Pair> pairs;
-  pairs.reserve(triangles.size());
-  double space = 0, plane = 0;
-  for (const auto& [i, j, k] : triangles) {
-    pairs.push_back(make_pair({points[i], points[j], points[k]}, {uv[i], uv[j], uv[k]}));
-    space += pairs.back().space;
-    plane += std::abs(pairs.back().plane);
-  }
-  const double density = plane / space;
+  const Pairs all(points, uv, triangles);
+  const auto& [pairs, plane, density] = all;
   Distortion sum{.l2 = 0, .linf = 0, .angle = 0, .area = 0};
   double counted = 0;
   for (const Pair& pair : pairs) {

@@ -82,6 +82,12 @@ void add_draft(const Surface& surface, const Draft& draft, Shelves& shelves, Unw
   result.charts.push_back({static_cast<std::uint32_t>(draft.faces.size()), area_of(draft.disc),
                            border_length(draft.disc), draft.distortion, draft.used_lscm,
                            draft.is_good});
+  const std::vector<double> stretch =
+      triangle_stretch(draft.disc.points, draft.uv, draft.disc.triangles);
+  for (std::size_t t = 0; t < stretch.size(); ++t) {  // of a polygon the worst triangle
+    const std::uint32_t face = surface.face_source[draft.faces[draft.disc.triangle_face[t]]];
+    result.face_stretch[face] = std::max(result.face_stretch[face], stretch[t]);
+  }
   const std::uint32_t first = shelves.add(draft.uv);
   for (std::size_t i = 0; i < draft.faces.size(); ++i) {
     const std::uint32_t face = draft.faces[i];
@@ -140,7 +146,7 @@ Result<Unwrapping> unwrap(const Mesh& mesh, const UnwrapOptions& options) {
   result.mesh = mesh;
   result.surface = surface->report;
   result.face_chart.assign(mesh.face_count(), kNone);
-  result.face_stretch.assign(mesh.face_count(), 1);
+  result.face_stretch.assign(mesh.face_count(), 0);
   double area = 0;
   for (const Draft& draft : cut->charts) area += area_of(draft.disc);
   Shelves shelves(result.mesh, area);

@@ -69,7 +69,9 @@ class Docs(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             packed = pathlib.Path(folder) / "packed.glb"
             sample = ROOT / "samples/coral.glb"
+            unwrapped = pathlib.Path(folder) / "unwrapped.glb"
             for command, arguments in (("pack", (sample, "-o", packed, "--grid", "64")),
+                                       ("unwrap", (sample, "-o", unwrapped, "--time", "0")),
                                        ("check", (packed, "--padding", "9")), ("info", (sample,))):
                 run = subprocess.run([COMMAND, command, *arguments, "--json", "-"],
                                      capture_output=True, text=True)
@@ -81,6 +83,8 @@ class Docs(unittest.TestCase):
                 cells = re.findall(r"^\|(.*?)\|(.*)\|$", sections[command], re.M)
                 named = {key for key, _ in cells for key in re.findall(r"`([\w.]+)`", key)}
                 named = {part for key in named for part in key.split(".")}
+                if command == "unwrap":
+                    cells += re.findall(r"^\|(.*?)\|(.*)\|$", sections["pack"], re.M)
                 told = {word for cell in cells for word in re.findall(r"`([\w.]+)`", cell[0] + cell[1])}
                 told = {part for key in told for part in key.split(".")}
                 with self.subTest(command):

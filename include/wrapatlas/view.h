@@ -1,0 +1,41 @@
+// Pictures of a model itself, and of values of its faces, on the model and on the atlas.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "wrapatlas/mesh.h"
+#include "wrapatlas/picture.h"
+
+namespace wrapatlas {
+
+using Color = std::array<std::uint8_t, 3>;  ///< sRGB
+
+/// Per face of a mesh the colour that draw_atlas gives to its chart; grey for kNone.
+std::vector<Color> colors_of_charts(std::span<const std::uint32_t> face_chart);
+
+/// Per face a colour for its value: dark blue at `low` or below, over green, to yellow at `high` or
+/// above, lighter all the way; grey for what is not finite. Precondition: low < high.
+std::vector<Color> colors_of_values(std::span<const double> values, double low, double high);
+
+struct ViewOptions {
+  int size = 768;  ///< pixels of each view, square; 16 to 4096
+  int views = 2;   ///< side by side, from around the model; 1 to 8
+  /// Per face: lines are drawn between faces of unequal labels. Empty: none.
+  std::span<const std::uint32_t> face_labels;
+};
+
+/// The mesh seen from a little above (y is up), in parallel projection, lit from the viewer; both
+/// sides of faces are shown. One colour per face. O(faces + pixels drawn).
+Image draw_mesh(const Mesh& mesh, std::span<const Color> face_colors,
+                const ViewOptions& options = {});
+
+/// The faces of an atlas at their UVs, filled with their colours; what lies outside [0,1] appears
+/// where a texture that repeats has it. `mesh` has the atlas applied (apply_atlas). One colour per
+/// face; `size`: pixels along the longer side of an atlas of width x height texels, 16 to 8192.
+Image draw_faces_on_atlas(const Mesh& mesh, std::span<const Color> face_colors, int width,
+                          int height, int size, bool v_points_down = false);
+
+}  // namespace wrapatlas

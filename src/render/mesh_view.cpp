@@ -1,0 +1,186 @@
+// A model as it looks: parallel projection, a depth per sample, lines where labels change.
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "mesh/polygon_plane.h"
+#include "render/colors.h"
+#include "render/samples.h"
+#include "wrapatlas/view.h"
+
+namespace wrapatlas {
+namespace {
+
+constexpr double kElevation = 20 * std::numbers::pi / 180;
+constexpr double kFirstAzimuth = 30 * std::numbers::pi / 180;
+constexpr double kFilled = 0.94;  ///< of a view's side, by the model's largest extent
+
+/// Where a view is seen from.
+struct Camera {
+  Vec3 right, up, back;  ///< back: towards the viewer
+  double scale = 1;      ///< samples per unit
+  Vec3 middle;
+  double half = 0;  ///< samples
+
+  [[nodiscard]] Vec3 place(const Vec3& p) const {  // x, y down, z: nearer is larger
+    const Vec3 d = p - middle;
+    return {half + scale * dot(right, d), half - scale * dot(up, d), scale * dot(back, d)};
+  }
+};
+
+Camera camera_at(double azimuth, const Mesh& mesh, int samples) {
+  Camera camera;
+  camera.right = {std::cos(azimuth), 0, -std::sin(azimuth)};
+  camera.back = {std::cos(kElevation) * std::sin(azimuth), std::sin(kElevation),
+                 std::cos(kElevation) * std::cos(azimuth)};
+  camera.up = cross(camera.back, camera.right);
+  Vec3 low{1e300, 1e300, 1e300}, high{-1e300, -1e300, -1e300};
+  for (const std::uint32_t i : mesh.corner_position) {  // points that no face uses are not seen
+    const Vec3& p = mesh.positions[i];
+    const Vec3 at{dot(camera.right, p), dot(camera.up, p), dot(camera.back, p)};
+    low = {std::min(low.x, at.x), std::min(low.y, at.y), std::min(low.z, at.z)};
+    high = {std::max(high.x, at.x), std::max(high.y, at.y), std::max(high.z, at.z)};
+  }
+  const Vec3 mid = 0.5 * (low + high);
+  camera.middle = mid.x * camera.right + mid.y * camera.up + mid.z * camera.back;
+  const double extent = std::max(high.x - low.x, high.y - low.y);
+  camera.half = 0.5 * (samples - 1);
+  camera.scale = extent > 0 ? kFilled * samples / extent : 1;
+  return camera;
+}
+
+/// One view's samples.
+class Canvas {
+ public:
+  Canvas(int size, const ViewOptions& options)
+      : size_(size * kSamplesAcross),
+        options_(options),
+        color_(std::size_t(size_) * size_, kGround),
+        depth_(color_.size(), -std::numeric_limits<float>::infinity()),
+        label_(color_.size(), kNone) {}
+
+  void draw(const Mesh& mesh, std::span<const Color> face_colors, const Camera& camera) {
+    std::vector<Vec2> flat;
+    std::vector<Vec3> corners;
+    std::vector<std::array<std::uint32_t, 3>> cut;
+    for (std::uint32_t face = 0; face < mesh.face_count(); ++face) {
+      corners.clear();
+      flat.clear();
+      cut.clear();
+      const Vec3 normal = polygon_normal(mesh, face);
+      const Plane plane(normal);
+      for (std::uint32_t c = mesh.face_begin[face]; c < mesh.face_begin[face + 1]; ++c) {
+        const Vec3& p = mesh.positions[mesh.corner_position[c]];
+        corners.push_back(camera.place(p));
+        flat.push_back(plane.project(p));
+      }
+      triangulate_polygon(flat, cut);
+      const double light = 0.35 + 0.65 * std::abs(dot(unit(normal), camera.back));
+      const Color color = mix({0, 0, 0}, face_colors[face], light);
+      const std::uint32_t label = options_.face_labels.empty() ? 0 : options_.face_labels[face];
+      for (const auto& [i, j, k] : cut) {
+        draw_triangle({corners[i], corners[j], corners[k]}, color, label);
+      }
+    }
+  }
+
+  /// Samples where the label changes on the surface, not where one part hides another.
+  void draw_seams() {
+    const int reach = std::max(1, size_ / 700);
+    std::vector<bool> is_seam(color_.size(), false);
+    for (int y = 0; y < size_; ++y) {
+      for (int x = 0; x < size_; ++x) {
+        const std::size_t at = std::size_t(y) * size_ + x;
+        for (int d = 1; d <= reach; ++d) {
+          if (x + d < size_ && parts(at, at + d, d)) is_seam[at] = is_seam[at + d] = true;
+          if (y + d < size_ && parts(at, at + std::size_t(d) * size_, d)) {
+            is_seam[at] = is_seam[at + std::size_t(d) * size_] = true;
+          }
+        }
+      }
+    }
+    for (std::size_t i = 0; i < color_.size(); ++i) {
+      if (is_seam[i]) color_[i] = mix(color_[i], kGround, 0.85);
+    }
+  }
+
+  [[nodiscard]] Image image() const {
+    return image_of_samples(color_, size_ / kSamplesAcross, size_ / kSamplesAcross);
+  }
+
+ private:
+  void draw_triangle(const std::array<Vec3, 3>& p, const Color& color, std::uint32_t label) {
+    const std::array<Vec2, 3> flat{{{p[0].x, p[0].y}, {p[1].x, p[1].y}, {p[2].x, p[2].y}}};
+    for_each_sample(flat, size_, size_, [&](int x, int y, const std::array<double, 3>& w) {
+      const auto depth = static_cast<float>(w[0] * p[0].z + w[1] * p[1].z + w[2] * p[2].z);
+      const std::size_t at = std::size_t(y) * size_ + x;
+      if (depth <= depth_[at]) return;
+      depth_[at] = depth;
+      color_[at] = color;
+      label_[at] = label;
+    });
+  }
+
+  [[nodiscard]] bool parts(std::size_t a, std::size_t b, int apart) const {
+    const bool both = std::isfinite(depth_[a]) && std::isfinite(depth_[b]);
+    constexpr float kSteepest = 8;  // depth per sample beyond which it is another part
+    return both && label_[a] != label_[b] &&
+           std::abs(depth_[a] - depth_[b]) < kSteepest * static_cast<float>(apart);
+  }
+
+  int size_;  // samples
+  const ViewOptions& options_;
+  std::vector<Color> color_;
+  std::vector<float> depth_;
+  std::vector<std::uint32_t> label_;
+};
+
+}  // namespace
+
+Image draw_mesh(const Mesh& mesh, std::span<const Color> face_colors, const ViewOptions& options) {
+  std::vector<Image> images;
+  const int size = std::clamp(options.size, 16, 4096), views = std::clamp(options.views, 1, 8);
+  for (int view = 0; view < views; ++view) {
+    Canvas canvas(size, options);
+    if (mesh.face_count() > 0) {
+      const double azimuth = kFirstAzimuth + 2 * std::numbers::pi * view / views;
+      canvas.draw(mesh, face_colors, camera_at(azimuth, mesh, size * kSamplesAcross));
+      canvas.draw_seams();
+    }
+    images.push_back(canvas.image());
+  }
+  return side_by_side(images, 0);
+}
+
+Image draw_faces_on_atlas(const Mesh& mesh, std::span<const Color> face_colors, int width,
+                          int height, int size, bool v_points_down) {
+  const double longer = std::max(width, height);
+  const int across = std::max(1, static_cast<int>(std::lround(size * (width / longer))));
+  const int down = std::max(1, static_cast<int>(std::lround(size * (height / longer))));
+  const int columns = across * kSamplesAcross, rows = down * kSamplesAcross;
+  std::vector<Color> samples(std::size_t(columns) * rows, kGround);
+  std::vector<Vec2> corners;
+  std::vector<std::array<std::uint32_t, 3>> cut;
+  for (std::uint32_t face = 0; face < mesh.face_count(); ++face) {
+    corners.clear();
+    cut.clear();
+    for (std::uint32_t c = mesh.face_begin[face]; c < mesh.face_begin[face + 1]; ++c) {
+      if (mesh.corner_texcoord[c] == kNone) break;
+      const Vec2 uv = mesh.texcoords[mesh.corner_texcoord[c]];
+      corners.push_back({uv.x * columns - 0.5, (v_points_down ? uv.y : 1 - uv.y) * rows - 0.5});
+    }
+    if (corners.size() != mesh.face_size(face)) continue;
+    triangulate_polygon(corners, cut);
+    for (const auto& [i, j, k] : cut) {
+      for_each_sample({corners[i], corners[j], corners[k]}, -1, -1,
+                      [&](int x, int y, const std::array<double, 3>&) {
+                        const int column = (x % columns + columns) % columns;
+                        const int row = (y % rows + rows) % rows;
+                        samples[std::size_t(row) * columns + column] = face_colors[face];
+                      });
+    }
+  }
+  return image_of_samples(samples, across, down);
+}
+
+}  // namespace wrapatlas

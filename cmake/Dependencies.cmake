@@ -2,7 +2,7 @@
 # them. Licences in brackets.
 #
 #   fmt             core   numbers to text and error lines, as std::format is not in g++ 12   [MIT]
-#   Eigen           core   sparse linear systems, for flattening charts; headers alone        [MPL2]
+#   Eigen           core   in which order to eliminate (AMD), for sparse systems; headers    [MPL2]
 #   nlohmann-json   io     glTF's JSON, with unknown members kept in their order, and --json  [MIT]
 #   libspng         io     PNG out                                                          [BSD-2]
 #   CLI11           cli    command line, that of bench too                                  [BSD-3]

@@ -2,7 +2,7 @@
 # them. Licences in brackets.
 #
 #   fmt             core   numbers to text and error lines, as std::format is not in g++ 12   [MIT]
-#   Eigen           core   sparse systems of flattening; headers only, none in ours         [MPL-2]
+#   Eigen           core   in which order to eliminate (AMD), for sparse systems; headers    [MPL2]
 #   nlohmann-json   io     glTF's JSON, with unknown members kept in their order, and --json  [MIT]
 #   libspng         io     PNG out                                                          [BSD-2]
 #   CLI11           cli    command line, that of bench too                                  [BSD-3]
@@ -19,7 +19,7 @@ endmacro()
 
 wrapatlas_find(Threads::Threads Threads)
 wrapatlas_find(fmt::fmt fmt)
-wrapatlas_find(Eigen3::Eigen Eigen3 3.4 NO_MODULE)
+wrapatlas_find(Eigen3::Eigen Eigen3 3.3 NO_MODULE)
 wrapatlas_find(nlohmann_json::nlohmann_json nlohmann_json 3.10)
 
 if(NOT TARGET PkgConfig::WRAPATLAS_SPNG)

@@ -7,7 +7,7 @@
 namespace wrapatlas {
 namespace {
 
-/// Sparse factors are indexed by int, and grow somewhat faster than the mesh.
+/// Entries of a factor are many times the mesh's, and take gigabytes beyond.
 constexpr std::size_t kMostTriangles = std::size_t{1} << 22;
 
 /// Area of a chart, relative to the square of its size, that is not merely rounding.

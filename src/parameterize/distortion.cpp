@@ -1,6 +1,5 @@
-// Sander, Snyder, Gortler & Hoppe 2001, Texture mapping progressive meshes (SIGGRAPH 2001),
-// section 3. a, b, c, L2 and Linf are the paper's; sums are scaled so that 1 is no distortion at
-// any size.
+// Sander, Snyder, Gortler & Hoppe 2001, Texture mapping progressive meshes (SIGGRAPH 2001).
+// a, b, c, L2 and Linf are the paper's; sums are scaled so that 1 is no distortion at any size.
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -1,6 +1,6 @@
-// Lévy, Petitjean, Ray & Maillot 2002, Least squares conformal maps (SIGGRAPH 2002), section 2.3,
-// with shapes in place of local coordinates, so that it lays out given angles as well. With U in
-// the complex plane each triangle asks for
+// Lévy, Petitjean, Ray & Maillot 2002, Least squares conformal maps (SIGGRAPH 2002), with shapes in
+// place of local coordinates, so that it lays out given angles as well. With U in the complex plane
+// each triangle asks for
 //   U2 - U0 = z (U1 - U0),
 // and misses it by 2 |b| h if the map to the plane is w -> a w + b conj(w) and h is the height over
 // edge 01. The conformal energy, area * |b|^2, is thus the squared error times edge / (8 h): as
@@ -11,15 +11,12 @@
 
 #include <algorithm>
 #include <array>
-#include <complex>
 
-#include "parameterize/eigen.h"
+#include "parameterize/ldl.h"
 #include "parameterize/pattern.h"
 
 namespace wrapatlas {
 namespace {
-
-using Complex = std::complex<double>;
 
 /// Flatter triangles count as this flat: those of no area would outweigh all others.
 constexpr double kFlattest = 0.025;
@@ -37,23 +34,32 @@ std::size_t farthest_on_border(const Disc& disc, std::size_t from) {
   return found;
 }
 
+std::array<std::uint32_t, 2> far_points(const Disc& disc) {
+  const std::size_t one = farthest_on_border(disc, 0), other = farthest_on_border(disc, one);
+  return {disc.border[one], disc.border[other]};
+}
+
+Pattern pattern_without(const std::array<std::uint32_t, 2>& pins, const Disc& disc,
+                        std::span<const std::uint32_t> order) {
+  std::vector<bool> free(disc.points.size(), true);
+  for (const std::uint32_t pin : pins) free[pin] = false;
+  return make_pattern(disc, order, free);
+}
+
 class Layout {
  public:
   Layout(const Disc& disc, std::span<const std::uint32_t> order, std::span<const Shape> shapes)
-      : disc_(disc), shapes_(shapes), at_(disc.points.size()) {
-    const std::size_t left = farthest_on_border(disc, 0), right = farthest_on_border(disc, left);
-    std::vector<bool> free(disc.points.size(), true);
-    free[disc.border[left]] = free[disc.border[right]] = false;
-    at_[disc.border[right]] = 1;
-    pattern_ = make_pattern(disc, order, free);
+      : disc_(disc),
+        shapes_(shapes),
+        pins_(far_points(disc)),
+        pattern_(pattern_without(pins_, disc, order)),
+        factor_(pattern_),
+        at_(disc.points.size()) {
+    at_[pins_[1]] = 1;
   }
 
   bool solve() {
-    assemble();
-    factor_.analyzePattern(matrix_);
-    factor_.factorize(matrix_);
-    if (factor_.info() != Eigen::Success) return false;
-    if (!(factor_.vectorD().real().minCoeff() > 0)) return false;
+    if (!factor_.factor(assemble())) return false;
     // Maps as good as conformal are many, and make the equations worse by n^2; but what rounding
     // took from the first step the second gives back, as it starts from the triangles' errors.
     step();
@@ -83,45 +89,40 @@ class Layout {
             1 / std::max(shape.ratio.imag(), kFlattest)};
   }
 
-  void assemble() {
-    const int entries = pattern_.begin.back();
-    matrix_.resize(pattern_.size(), pattern_.size());
-    matrix_.resizeNonZeros(entries);
-    std::copy(pattern_.begin.begin(), pattern_.begin.end(), matrix_.outerIndexPtr());
-    std::copy(pattern_.row.begin(), pattern_.row.end(), matrix_.innerIndexPtr());
-    Complex* value = matrix_.valuePtr();
-    std::fill_n(value, entries, 0.0);
+  [[nodiscard]] std::vector<Complex> assemble() const {
+    std::vector<Complex> entries(pattern_.row.size());
     for (std::size_t t = 0; t < shapes_.size(); ++t) {
       const Row row = row_of(t);
       for (std::size_t i = 0; i < 3; ++i) {
         const int column = pattern_.column[disc_.triangles[t][row.corner[i]]];
         if (column < 0) continue;
-        value[pattern_.begin[column + 1] - 1] += row.weight * std::norm(row.factor[i]);
-        const int entry = pattern_.edge_entry[3 * t + row.corner[i]];
-        if (entry < 0) continue;
+        entries[pattern_.diagonal(column)] += row.weight * std::norm(row.factor[i]);
+        const int edge = pattern_.edge_entry[3 * t + row.corner[i]];
+        if (edge < 0) continue;
         const std::size_t j = next3(i);
-        const Complex product = row.weight * std::conj(row.factor[i]) * row.factor[j];
+        const Complex product = row.weight * times(adjoint(row.factor[i]), row.factor[j]);
         const int other = pattern_.column[disc_.triangles[t][row.corner[j]]];
-        value[entry] += column < other ? product : std::conj(product);
+        entries[edge] += column < other ? product : adjoint(product);
       }
     }
+    return entries;
   }
 
   /// From where the points are to where they should be.
   void step() {
-    Eigen::VectorXcd downhill = Eigen::VectorXcd::Zero(pattern_.size());
+    std::vector<Complex> change(pattern_.size());  // at first, downhill
     for (std::size_t t = 0; t < shapes_.size(); ++t) {
       const Row row = row_of(t);
       Complex error = 0;
       for (std::size_t i = 0; i < 3; ++i) {
-        error += row.factor[i] * at_[disc_.triangles[t][row.corner[i]]];
+        error += times(row.factor[i], at_[disc_.triangles[t][row.corner[i]]]);
       }
       for (std::size_t i = 0; i < 3; ++i) {
         const int column = pattern_.column[disc_.triangles[t][row.corner[i]]];
-        if (column >= 0) downhill[column] -= row.weight * std::conj(row.factor[i]) * error;
+        if (column >= 0) change[column] -= row.weight * times(adjoint(row.factor[i]), error);
       }
     }
-    const Eigen::VectorXcd change = factor_.solve(downhill);
+    factor_.solve(change);
     for (std::size_t p = 0; p < at_.size(); ++p) {
       if (pattern_.column[p] >= 0) at_[p] += change[pattern_.column[p]];
     }
@@ -129,11 +130,10 @@ class Layout {
 
   const Disc& disc_;
   std::span<const Shape> shapes_;
-  std::vector<Complex> at_;  // per point
+  std::array<std::uint32_t, 2> pins_;
   Pattern pattern_;
-  Eigen::SparseMatrix<Complex> matrix_;
-  Eigen::SimplicialLDLT<Eigen::SparseMatrix<Complex>, Eigen::Upper, Eigen::NaturalOrdering<int>>
-      factor_;
+  Ldl<Complex> factor_;
+  std::vector<Complex> at_;  // per point
 };
 
 }  // namespace

@@ -1,6 +1,6 @@
 // Shewchuk 1997, Adaptive precision floating-point arithmetic and fast robust geometric predicates:
-// the error bound of the first stage (section 4.3), and sums of doubles that are exact (figures 6
-// and 10). Where the bound does not decide we go straight to the exact sum: that is seldom.
+// the error bound of ORIENT2D's first stage, and sums of doubles that are exact (GROW-EXPANSION).
+// Where the bound does not decide we go straight to the exact sum: that is seldom.
 #include "parameterize/orient2d.h"
 
 #include <array>

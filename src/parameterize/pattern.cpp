@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "parameterize/eigen.h"
-
 namespace wrapatlas {
 namespace {
 
@@ -54,22 +52,6 @@ Pattern make_pattern(const Disc& disc, std::span<const std::uint32_t> order,
     if (disc.opposite[h] != kNone) pattern.edge_entry[disc.opposite[h]] = entry;
   }
   return pattern;
-}
-
-std::vector<std::uint32_t> elimination_order(const Disc& disc) {
-  std::vector<std::uint32_t> order(disc.points.size());
-  for (std::uint32_t p = 0; p < order.size(); ++p) order[p] = p;
-  Pattern pattern = make_pattern(disc, order, std::vector<bool>(order.size(), true));
-  const std::vector<double> ones(pattern.row.size(), 1);
-  const Eigen::Map<const Eigen::SparseMatrix<double>> graph(
-      pattern.size(), pattern.size(), static_cast<Eigen::Index>(ones.size()), pattern.begin.data(),
-      pattern.row.data(), ones.data());
-  Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> found;
-  Eigen::AMDOrdering<int>()(graph.selfadjointView<Eigen::Upper>(), found);
-  for (std::size_t k = 0; k < order.size(); ++k) {
-    order[k] = static_cast<std::uint32_t>(found.indices()(static_cast<Eigen::Index>(k)));
-  }
-  return order;
 }
 
 }  // namespace wrapatlas

@@ -10,7 +10,6 @@
 namespace wrapatlas {
 namespace {
 
-using test::uniform;
 using Triangles = std::vector<std::array<std::uint32_t, 3>>;
 
 /// Triangles whose border is the polygon 0, 1, ... n - 1; where they lie does not matter.

@@ -14,7 +14,6 @@ using std::numbers::pi;
 using test::bumpy;
 using test::cap;
 using test::Surface;
-using test::uniform;
 
 Disc disc_of(const Surface& surface) {
   auto disc = make_disc(surface.points, surface.triangles);

@@ -338,6 +338,10 @@ TEST(FlattenErrors, SayWhereWhatAndTheWayOut) {
               "below 1e30");
   }
   bad = good;
+  bad.triangles.resize((1U << 22U) + 1);
+  EXPECT_EQ(complaint(bad),
+            "chart: it has 4194305 triangles; cut it into charts of at most 4194304");
+  bad = good;
   for (Vec3& p : bad.points) p = {p.x, 2 * p.x, 0};
   EXPECT_EQ(complaint(bad), "chart: it has no area; leave it out, or merge it with a neighbour");
   for (Vec3& p : bad.points) p = {1, 2, 3};
@@ -379,11 +383,12 @@ TEST(FlattenErrors, WhatEulerAloneWouldNotSee) {
   const int n = 5;
   Surface torus;
   for (int i = 0; i < n * n; ++i) {
-    const double u = 2 * std::numbers::pi * (i % n) / n, v = 2 * std::numbers::pi * (i / n) / n;
+    const int column = i % n, row = i / n;
+    const double u = 2 * std::numbers::pi * column / n, v = 2 * std::numbers::pi * row / n;
     torus.points.push_back(
         {(2 + std::cos(u)) * std::cos(v), (2 + std::cos(u)) * std::sin(v), std::sin(u)});
     const auto at = [&](int a, int b) {
-      return static_cast<std::uint32_t>((i % n + a) % n + (i / n + b) % n * n);
+      return static_cast<std::uint32_t>((column + a) % n + (row + b) % n * n);
     };
     torus.triangles.push_back({at(0, 0), at(1, 0), at(1, 1)});
     torus.triangles.push_back({at(0, 0), at(1, 1), at(0, 1)});

@@ -12,7 +12,7 @@ constexpr Color kNoValue{128, 128, 128};
 
 /// Lighter from end to end, so that it can be read in grey too.
 Color color_of_value(double share) {
-  return from_oklch(0.32 + 0.58 * share, 0.09 + 0.08 * share, 0.77 - 0.47 * share);
+  return from_oklch(0.32 + 0.58 * share, 0.1, 0.77 - 0.47 * share);
 }
 
 }  // namespace

@@ -1,12 +1,13 @@
 """`wrapatlas unwrap`: bare models come out with UVs that keep every promise."""
 
-import json
+import pathlib
 import struct
 import unittest
 
 import support
 from support import obj_lines
 
+MODELS = pathlib.Path(__file__).resolve().parents[3] / "shared/data/models"
 FAST = ("--resolution", 256, "--padding", 2, "--time", 0, "--quiet")
 
 CUBE = """o cube
@@ -148,6 +149,24 @@ class Unwrap(support.CommandTest):
         self.assertEqual(self.path("1.obj").read_bytes(), self.path("2.obj").read_bytes())
         self.assertEqual(self.path("1.obj").read_bytes(), self.path("5.obj").read_bytes())
 
+    def test_pictures(self):
+        source = self.sample("knot.off")
+        self.unwrap(source, "a.obj", "--view", "view.png", "--heat", "heat.png", "--image", "a.png")
+        for name, width, height in (("view.png", 1536, 768), ("heat.png", 1024, 1024),
+                                    ("a.png", 1024, 1024)):
+            data = self.path(name).read_bytes()
+            self.assertEqual(data[:8], b"\x89PNG\r\n\x1a\n")
+            self.assertEqual(struct.unpack(">II", data[16:24]), (width, height))
+        self.succeed("unwrap", source, "-o", "b.obj", "--stop-after", "charts", "--view", "v.png")
+        self.assertEqual(self.path("v.png").read_bytes(), self.path("view.png").read_bytes())
+        refusals = ((("--heat", "v.png"), "nothing is packed", ("--stop-after", "flat")),
+                    (("--view", "v.svg"), "pixels", ()), (("--view", "c.obj"), "", ()),
+                    (("--view", "same.png", "--heat", "same.png"), "", ()),
+                    (("--heat", "h.png", "--pages", 2, "--wrap", "none"), "one page", ()))
+        for options, word, more in refusals:
+            with self.subTest(options=options):
+                self.refuse(2, (word,), "unwrap", source, "-o", "c.obj", *options, *more)
+
     def test_refuses(self):
         self.write("empty.obj", "")
         self.write("a.obj", CUBE)
@@ -159,6 +178,25 @@ class Unwrap(support.CommandTest):
         self.refuse(3, ("nowhere",), "unwrap", "a.obj", "-o", "nowhere/b.obj")
         self.write("flat.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n")
         self.refuse(3, ("flat.obj", "no area"), "unwrap", "flat.obj", "-o", "b.obj")
+
+
+@unittest.skipUnless(MODELS.is_dir(), "the data beside the repository is not there")
+class RealModels(support.CommandTest):
+    """Each kind of defect as real files have it."""
+
+    DEFECTS = {"beetle.obj": ("crowded_edges", "shared_points"), "cow.obj": ("shared_points",),
+               "suzanne.obj": ("shared_points",), "teapot.obj": ("shared_points",)}
+
+    def test_every_face_in_charts_within_the_limits(self):
+        for path in sorted(MODELS.glob("*.obj")):
+            with self.subTest(path.name):
+                report = self.report("unwrap", path, "-o", "a.obj", *FAST)
+                self.assertTrue(report["valid"])
+                self.assertEqual(report["charts_beyond_limits"], 0)
+                self.assertLessEqual(report["stretch"]["l2_max"], 2)
+                self.assertEqual(report["faces_without_uv"], 0)
+                for repair in self.DEFECTS.get(path.name, ()):
+                    self.assertGreater(report["repairs"][repair], 0)
 
 
 if __name__ == "__main__":

@@ -2,8 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <map>
+#include <random>
 #include <set>
 
+#include "support/shapes.h"
 #include "support/solids.h"
 #include "wrapatlas/charts.h"
 #include "wrapatlas/unwrap.h"
@@ -146,6 +148,52 @@ TEST(Unwrap, BrokenMeshesLoseNoFace) {
       {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.5, 0, 0}, {1, 1, 0}, {3, 3, 3}},
       {{0, 3, 1}, {0, 0, 1}, {0, 1, 2}, {1, 4, 1, 2}, {2, 1, 4}, {5, 5, 5}, {0, 1, 5}, {1, 0, 5}});
   expect_unwrapped(odd);
+}
+
+/// A mesh after some accidents: faces lost, doubled, turned, points moved, points made one.
+Mesh mutilated(const Mesh& mesh, std::mt19937_64& random) {
+  std::vector<test::Face> faces;
+  std::vector<Vec3> positions = mesh.positions;
+  const auto below = [&](std::size_t n) { return static_cast<std::uint32_t>(random() % n); };
+  const auto often = [&](int percent) { return random() % 100 < static_cast<unsigned>(percent); };
+  const int lost = below(20), doubled = below(5), turned = below(30), moved = below(20),
+            joined = below(6);
+  for (std::size_t f = 0; f < mesh.face_count(); ++f) {
+    test::Face face(mesh.corner_position.begin() + mesh.face_begin[f],
+                    mesh.corner_position.begin() + mesh.face_begin[f + 1]);
+    for (std::uint32_t& p : face) {
+      if (often(joined)) p = below(positions.size());
+    }
+    if (often(turned)) std::reverse(face.begin(), face.end());
+    if (often(doubled)) faces.push_back(face);
+    if (!often(lost)) faces.push_back(face);
+  }
+  for (Vec3& p : positions) {
+    if (!often(moved)) continue;
+    for (double* x : {&p.x, &p.y, &p.z}) *x += test::uniform(random, -0.5, 0.5);
+  }
+  if (faces.empty()) faces.push_back({0, 1, 2});
+  return test::bare_mesh(positions, faces);
+}
+
+TEST(Unwrap, WhateverHappenedToTheMesh) {
+  std::mt19937_64 random(11);
+  for (int trial = 0; trial < 60; ++trial) {
+    SCOPED_TRACE(trial);
+    const Mesh whole = trial % 3 == 0   ? test::ball(7)
+                       : trial % 3 == 1 ? test::torus(6, 0.4, trial % 2 == 0)
+                                        : test::tube(7, 2);
+    expect_unwrapped(mutilated(whole, random));
+  }
+}
+
+TEST(Unwrap, AnySizeAndPlace) {
+  for (const double size : {1e-12, 1e-3, 1e9}) {
+    Mesh mesh = test::torus(8);
+    for (Vec3& p : mesh.positions) p = size * p;
+    EXPECT_EQ(expect_unwrapped(mesh).charts.size(), expect_unwrapped(test::torus(8)).charts.size());
+  }
+  expect_unwrapped(test::moved(test::torus(8), {1e5, -1e6, 1e4}));
 }
 
 TEST(Unwrap, FlatFacesAlone) {

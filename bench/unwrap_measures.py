@@ -138,8 +138,9 @@ def turns(corners):
     return turned
 
 
-def fans(mesh, plane):
-    """Triangles, as rows of three corners, of all faces: of each face its best fan."""
+def fans(mesh, plane=None):
+    """Triangles, as rows of three corners, of all faces: of each face its best fan, by its places
+    in space and, if given, in the plane."""
     result, sizes = [], mesh.sizes()
     for size in numpy.unique(sizes[sizes > 2]):
         first = mesh.begins[:-1][sizes == size]
@@ -158,6 +159,8 @@ def fan_quality(mesh, plane, corners):
     normals = numpy.cross(space[:, 1:-1] - space[:, :1], space[:, 2:] - space[:, :1])
     whole = normals.sum(axis=1, keepdims=True)
     least = shares((normals * whole).sum(axis=2))
+    if plane is None:
+        return least
     flat = plane[corners]
     areas = border_crossings.cross(flat[:, 1:-1] - flat[:, :1], flat[:, 2:] - flat[:, :1])
     return numpy.minimum(least, shares(areas))

@@ -81,8 +81,12 @@ def progress(text):
     print(text, file=sys.stderr, flush=True)
 
 
-def run(command, what):
-    done = subprocess.run(command, capture_output=True, text=True)
+def run(command, what, limit=None):
+    """Its standard output. Raises Failure, also after `limit` seconds."""
+    try:
+        done = subprocess.run(command, capture_output=True, text=True, timeout=limit)
+    except subprocess.TimeoutExpired:
+        raise Failure(f"{what}: not done after {limit:g} s") from None
     if done.returncode != 0:
         raise Failure(f"{what}: exit status {done.returncode} of {shlex.join(command)}\n"
                       f"{done.stderr.strip()}")

@@ -1,0 +1,151 @@
+"""Unwrapping one mesh, with wrapatlas or with xatlas, and judging the result by what
+unwrap_measures.py measures of it. No run ends the script: what it breaks is named in its row."""
+
+import collections
+import importlib.util
+import json
+import pathlib
+import sys
+
+import numpy
+
+import measure
+import mesh_files
+from unwrap_measures import Measures, fans, measured
+
+STAGES = ("total", "read", "repair", "segment", "flatten", "pack", "validate", "write")
+XATLAS = measure.REPOSITORY / "bench" / "compare" / "xatlas_unwrap.py"
+ROUNDING = 1e-4  # of stretch, relative: UVs are 32-bit floats
+AGREEMENT = 1e-2  # of the stretch that the program reports, relative
+
+# Lengths in texels, times in seconds. None: not known. `failed`: broken promises, or why there is no
+# result.
+Row = collections.namedtuple("Row", [
+    "group", "file", "method", "faces", "charts", "l2", "linf", "angle", "boundary", "efficiency",
+    "megabytes", *STAGES, "left_out", "not_discs", "flipped", "collapsed", "crossing_charts",
+    "crossing_depth", "thin", "thin_flipped", "thin_depth", "touches", "touch_depth", "failed"],
+    defaults=[None] * 31)
+
+
+def has_xatlas():
+    return importlib.util.find_spec("xatlas") is not None
+
+
+def row(group, path, method, measures=None, **values):
+    if measures:
+        values |= {"l2": measures.l2.max(initial=0), "linf": measures.linf.max(initial=0),
+                   "not_discs": len(measures.not_discs)}
+        values |= {name: getattr(measures, name) for name in (
+            "charts", "angle", "boundary", "flipped", "collapsed", "crossing_charts",
+            "crossing_depth", "thin", "thin_flipped", "thin_depth", "touches", "touch_depth")}
+    return Row(group, str(path), method, **values)
+
+
+def by_wrapatlas(options, group, path, folder, more=()):
+    """Needs of the options: wrapatlas, resolution, padding, threads, max_stretch, limit."""
+    output = pathlib.Path(folder) / "unwrapped.obj"
+    try:
+        report = json.loads(measure.run(
+            [options.wrapatlas, "unwrap", str(path), "-o", str(output), "--max-stretch",
+             f"{options.max_stretch:g}", "--resolution", options.resolution, "--padding",
+             options.padding, "--threads", options.threads, "--quiet", "--json", "-", *more],
+            str(path), options.limit))
+        source, result = mesh_files.read(path), mesh_files.read(output)
+    except (measure.Failure, ValueError) as failure:
+        return row(group, path, "wrapatlas", failed=str(failure))
+    broken = unlike(source, result)
+    whole, result = result, with_uvs(result)
+    left_out = len(whole.sizes()) - len(result.sizes())
+    measures = measured(result, report.get("width", 1), report.get("height", 1))
+    broken += broken_promises(measures, left_out, options.max_stretch)
+    broken += disagreements(report, measures, len(whole.sizes()))
+    if "width" in report:
+        broken += check(options, output, report)
+    seconds = {stage: report["seconds"].get(stage) for stage in STAGES}
+    return row(group, path, "wrapatlas", measures, faces=len(whole.sizes()), left_out=left_out,
+               efficiency=report.get("efficiency"), megabytes=report.get("peak_memory_mb"),
+               failed="; ".join(broken), **seconds)
+
+
+def unlike(source, result):
+    """Where the result is not the source with other UVs."""
+    if len(source.sizes()) != len(result.sizes()):
+        return [f"{len(source.sizes())} faces became {len(result.sizes())}"]
+    if (source.sizes() != result.sizes()).any():
+        return ["faces have other numbers of corners, or another order"]
+    broken = []
+    moved = (numpy.float32(source.corner_positions())
+             != numpy.float32(result.corner_positions())).any(axis=1)
+    if moved.any():
+        broken.append(f"{moved.sum()} corners are at other positions, or in another order")
+    if (source.positions.shape != result.positions.shape
+            or (source.corners != result.corners).any()):
+        broken.append("vertices were renumbered")
+    return broken
+
+
+def with_uvs(mesh):
+    if mesh.uvs is None:
+        mesh.uvs = numpy.full((len(mesh.corners), 2), numpy.nan)
+    bare = numpy.isnan(mesh.uvs).any(axis=1)
+    return mesh.subset(numpy.add.reduceat(bare, mesh.begins[:-1]) == 0) if bare.any() else mesh
+
+
+def broken_promises(measures, left_out, max_stretch):
+    found = [(left_out, "faces without UVs"), (measures.flipped, "flipped triangles"),
+             (measures.collapsed, "triangles without area in the plane")]
+    broken = [f"{count} {what}" for count, what in found if count]
+    broken += [f"chart {chart} is no disc: {why}" for chart, why in measures.not_discs.items()]
+    if measures.crossing_charts:
+        broken.append(f"{measures.crossing_charts} charts overlap themselves, borders cross by up "
+                      f"to {measures.crossing_depth:.2g} texels")
+    most = measures.l2.max(initial=0)
+    if most > max_stretch * (1 + ROUNDING):
+        broken.append(f"L2 stretch {most:.4f}")
+    return broken
+
+
+def disagreements(report, measures, faces):
+    """Where the program says something else than what is measured."""
+    broken = [f"reports {report.get(name)} {name}, measured are {count}"
+              for name, count in (("faces", faces), ("charts", measures.charts))
+              if report.get(name) != count]
+    said, most = report["stretch"]["l2_max"], measures.l2.max(initial=0)
+    if said is None or numpy.isfinite(most) and abs(said - most) > AGREEMENT * most:
+        broken.append(f"reports L2 stretch {said}, measured is {most:.4f}")
+    return broken
+
+
+def check(options, output, report):
+    """What `wrapatlas check` has to say of the packing. (A reference it could have is the source:
+    but that has no UVs, or others.)"""
+    command = [options.wrapatlas, "check", str(output), "--resolution",
+               f"{report['width']}x{report['height']}", "--padding", str(report["padding"]),
+               "--wrap", report["wrap"], "--findings", "3"]
+    try:
+        measure.run(command, "check")
+    except measure.Failure as failure:
+        return [" ".join(str(failure).replace(f"{output}: ", "").split())]
+    return []
+
+
+def by_xatlas(options, group, path, folder):
+    """Needs of the options: limit. xatlas gets the mesh as it is, polygons as triangles."""
+    given, taken = (pathlib.Path(folder) / name for name in ("in.npz", "out.npz"))
+    try:
+        source = mesh_files.read(path)
+        corners = fans(source)
+        triangles = source.corners[corners]
+        numpy.savez(given, positions=source.positions.astype(numpy.float32),
+                    triangles=triangles.astype(numpy.uint32))
+        measure.run([sys.executable, str(XATLAS), str(given), str(taken)], str(path), options.limit)
+    except (measure.Failure, ValueError) as failure:
+        return row(group, path, "xatlas", failed=str(failure))
+    data = numpy.load(taken)
+    result = mesh_files.Mesh(source.positions, 3 * numpy.arange(len(triangles) + 1),
+                             triangles.ravel(), data["uvs"].astype(numpy.float64))
+    placed = data["placed"]
+    measures = measured(result.subset(placed), *data["size"].tolist()) if placed.any() else Measures()
+    return row(group, path, "xatlas", measures, faces=len(triangles),
+               left_out=int((~placed).sum()), total=float(data["seconds"]),
+               megabytes=float(data["megabytes"]), failed="")

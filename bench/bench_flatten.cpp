@@ -26,7 +26,7 @@ constexpr Way kWays[] = {{"labf, 1 solve", {FlattenMethod::labf, 1}},
 /// What one way makes of all charts.
 struct Sums {
   double l2 = 0, angle = 0, area = 0, seconds = 0;
-  std::vector<double> residuals;
+  std::vector<double> residuals, l2s;
   std::size_t charts = 0, flipped = 0, stood_in = 0;
 };
 
@@ -75,7 +75,8 @@ void measure(const CutChart& disc, const Way& way, Sums& sums) {
     squares += size * stretch[t] * stretch[t];
     area += size;
   }
-  sums.l2 += std::sqrt(squares / area);
+  sums.l2s.push_back(std::sqrt(squares / area));
+  sums.l2 += sums.l2s.back();
   sums.angle += distortion.angle;
   sums.area += distortion.area;
 }
@@ -95,8 +96,8 @@ int bench_flatten(const FlattenBenchOptions& options) {
     return 3;
   }
   fmt::print("{} charts, {} triangles; means over charts\n", discs.size(), triangles);
-  Table table({"way", "L2", "angle", "area", "flipped", "lscm stood in", "wheel error, median",
-               "largest", "us per triangle"});
+  Table table({"way", "L2", "L2, median", "angle", "area", "flipped", "lscm stood in",
+               "wheel error, median", "largest", "us per triangle"});
   for (const Way& way : kWays) {
     Sums sums;
     for (const CutChart& disc : discs) measure(disc, way, sums);
@@ -104,6 +105,7 @@ int bench_flatten(const FlattenBenchOptions& options) {
     const bool has_wheels = !sums.residuals.empty();
     table.add(
         {way.name, fmt::format("{:.4f}", sums.l2 / count),
+         sums.l2s.empty() ? "" : fmt::format("{:.4f}", median(sums.l2s)),
          fmt::format("{:.5f}", sums.angle / count), fmt::format("{:.4f}", sums.area / count),
          std::to_string(sums.flipped), std::to_string(sums.stood_in),
          has_wheels ? power(median(sums.residuals)) : "",

@@ -112,7 +112,11 @@ Result<Unwrapping> unwrap_with_progress(UnwrapArguments& arguments, const Mesh& 
     return !interrupted();
   };
   auto unwrapping = unwrap(mesh, arguments.options);
-  if (!unwrapping) return inside_input(arguments.pack, unwrapping.error());
+  if (!unwrapping) {
+    Error error = inside_input(arguments.pack, unwrapping.error());
+    if (error.kind == ErrorKind::interrupted) error.remedy = "nothing was written";
+    return error;
+  }
   return unwrapping;
 }
 

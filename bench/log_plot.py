@@ -51,10 +51,15 @@ def plot(title, across, series, logarithmic_across=True):
         canvas.path([(x.at(tick), TOP), (x.at(tick), BOTTOM)], stroke=svg.GRID, line=1)
         canvas.text(x.at(tick), BOTTOM + 18, tick_text(tick), size=12, anchor="middle")
     canvas.path([(LEFT, TOP), (LEFT, BOTTOM), (RIGHT, BOTTOM)], stroke=svg.INK, line=1.2)
+    labels = []  # where there is text already
     for colour, (name, line) in zip(COLOURS, series.items()):
         places = [(x.at(place), y.at(value)) for place, value in line]
         canvas.path(places, stroke=colour, line=2)
         for a, b in places:
             canvas.add(f'<circle cx="{svg.number(a)}" cy="{svg.number(b)}" r="4" fill="{colour}"/>')
-        canvas.text(places[-1][0] + 9, places[-1][1] + 4, name, size=12)
+        left, middle = places[-1]
+        while any(abs(left - a) < 100 and abs(middle - b) < 13 for a, b in labels):
+            middle += 1
+        labels.append((left, middle))
+        canvas.text(left + 9, middle + 4, name, size=12)
     return canvas.document()

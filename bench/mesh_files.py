@@ -60,7 +60,7 @@ def read_off(path):
         sizes.append(body[at])
         corners.append(body[at + 1:at + 1 + body[at]])
         at += 1 + body[at]
-    return Mesh(positions, begins_of(sizes), numpy.concatenate(corners))
+    return Mesh(positions, begins_of(sizes), numpy.concatenate([body[:0], *corners]))
 
 
 def read_obj(path):

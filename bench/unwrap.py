@@ -1,12 +1,14 @@
 #!/usr/bin/env python3
 """Unwraps bare meshes (OBJ, OFF) and measures the results without the program's help: charts, their
-stretch, seams, seconds by stage, as Markdown tables; with --xatlas beside xatlas on the same meshes.
+stretch, seams, seconds by stage, as Markdown tables; with --xatlas beside xatlas on the same
+meshes.
 
-Held against wrapatlas, on every file: the mesh is the same but for its UVs, every face has them, each
-chart is a disc, is stretched by no more than --max-stretch (L2), has no flipped triangle and does not
-overlap itself, the report agrees with what is measured, `wrapatlas check` finds nothing. What breaks is
-named, and gives exit status 1 after all files are done. unwrap_measures.py says how it is measured.
-Needs numpy; for --xatlas also PyPI's `xatlas` (compare/README.md). Progress goes to stderr.
+Held against wrapatlas, on every file: the mesh is the same but for its UVs, every face has them,
+each chart is a disc, is stretched by no more than --max-stretch (L2), has no flipped triangle and
+does not overlap itself, the report agrees with what is measured, `wrapatlas check` finds nothing.
+What breaks is named, and gives exit status 1 after all files are done. unwrap_measures.py says
+how it is measured. Needs numpy; for --xatlas also PyPI's `xatlas` (compare/README.md). Progress
+goes to stderr.
 """
 
 import argparse
@@ -30,11 +32,14 @@ PSB = {20: "human", 40: "cup", 60: "glasses", 80: "airplane", 100: "ant", 120: "
        380: "vase", 400: "four-legged"}
 
 LEGEND = """
-Stretch: Sander et al. 2001, of a chart; its two areas made equal, so that 1 is an isometry. Angle:
-mean of (s/t + t/s)/2 for the singular values s and t of each triangle's map; 1 is conformal. Border:
-length of all seams in space, each once, over the root of the area. In use: share of the atlas that
-charts cover. Segment has flatten in it. Thin: triangles no higher than what 32-bit floats on the atlas
-round to, left out of stretch; touches: places where a border meets itself no deeper than that."""
+Stretch: Sander et al. 2001, of a chart; its two areas made equal, so that 1 is an isometry.
+Angle: mean of (s/t + t/s)/2 for the singular values s and t of each triangle's map; 1 is
+conformal. Border: length of all seams in space, each once, over the root of the area. In use:
+share of the atlas that charts cover. Segment has flatten in it, whose own seconds are summed
+over threads. If cut otherwise: polygons with a flipped triangle when they are cut by other
+diagonals, as a viewer may. Folded: faces with a position twice, in no chart that is measured.
+Thin: triangles no higher than what 32-bit floats on the atlas round to, left out of stretch;
+touches: places where a border meets itself no deeper than that."""
 
 
 def arguments():
@@ -101,14 +106,14 @@ def print_failures(rows):
     if theirs:
         print("\n### Files without a result of xatlas\n")
         for row in theirs:
-            print(f"- {row.failed.splitlines()[0]}")
+            print(f"- {row.file}: {row.failed.splitlines()[0]}")
     return not ours
 
 
 def main():
     options = arguments()
-    measure.print_origin(options, f"max-stretch {options.max_stretch:g}, time {options.time}, limit "
-                         f"{options.limit:g} s, extra '{options.extra}'")
+    measure.print_origin(options, f"max-stretch {options.max_stretch:g}, time {options.time}, "
+                         f"limit {options.limit:g} s, extra '{options.extra}'")
     rows = measure_all(options)
     print(LEGEND)
     unwrap_tables.print_all(rows)

@@ -11,20 +11,24 @@ import numpy
 
 import measure
 import mesh_files
-from unwrap_measures import Measures, fans, measured
+from chart_corners import folded
+from chart_triangles import fans
+from unwrap_measures import Measures, measured
 
 STAGES = ("total", "read", "repair", "segment", "flatten", "pack", "validate", "write")
 XATLAS = measure.REPOSITORY / "bench" / "compare" / "xatlas_unwrap.py"
 ROUNDING = 1e-4  # of stretch, relative: UVs are 32-bit floats
 AGREEMENT = 1e-2  # of the stretch that the program reports, relative
 
-# Lengths in texels, times in seconds. None: not known. `failed`: broken promises, or why there is no
-# result.
-Row = collections.namedtuple("Row", [
-    "group", "file", "method", "faces", "charts", "l2", "linf", "angle", "boundary", "efficiency",
-    "megabytes", *STAGES, "left_out", "not_discs", "flipped", "collapsed", "crossing_charts",
-    "crossing_depth", "thin", "thin_flipped", "thin_depth", "touches", "touch_depth", "failed"],
-    defaults=[None] * 31)
+# Those of Measures that are numbers.
+MEASURED = ("charts", "angle", "boundary", "flipped", "otherwise_flipped", "collapsed",
+            "crossing_charts", "crossing_depth", "thin", "thin_flipped", "thin_depth", "touches",
+            "touch_depth")
+# Lengths in texels, times in seconds. None: not known. `failed`: broken promises, or why there is
+# no result.
+COLUMNS = ("group", "file", "method", "faces", "l2", "linf", "efficiency", "megabytes", *STAGES,
+           "left_out", "folded", "not_discs", *MEASURED, "failed")
+Row = collections.namedtuple("Row", COLUMNS, defaults=[None] * (len(COLUMNS) - 3))
 
 
 def has_xatlas():
@@ -35,9 +39,7 @@ def row(group, path, method, measures=None, **values):
     if measures:
         values |= {"l2": measures.l2.max(initial=0), "linf": measures.linf.max(initial=0),
                    "not_discs": len(measures.not_discs)}
-        values |= {name: getattr(measures, name) for name in (
-            "charts", "angle", "boundary", "flipped", "collapsed", "crossing_charts",
-            "crossing_depth", "thin", "thin_flipped", "thin_depth", "touches", "touch_depth")}
+        values |= {name: getattr(measures, name) for name in MEASURED}
     return Row(group, str(path), method, **values)
 
 
@@ -52,19 +54,34 @@ def by_wrapatlas(options, group, path, folder, more=()):
             str(path), options.limit))
         source, result = mesh_files.read(path), mesh_files.read(output)
     except (measure.Failure, ValueError) as failure:
-        return row(group, path, "wrapatlas", failed=str(failure))
-    broken = unlike(source, result)
-    whole, result = result, with_uvs(result)
-    left_out = len(whole.sizes()) - len(result.sizes())
-    measures = measured(result, report.get("width", 1), report.get("height", 1))
+        return row(group, path, "wrapatlas", failed=without_name(path, failure))
+    broken, faces = unlike(source, result), len(result.sizes())
+    result = with_uvs(result)
+    left_out = faces - len(result.sizes())
+    measures, folds = unfolded_measures(result, report.get("width", 1), report.get("height", 1))
     broken += broken_promises(measures, left_out, options.max_stretch)
-    broken += disagreements(report, measures, len(whole.sizes()))
+    broken += disagreements(report, {"faces": faces, "charts": measures.charts + folds})
+    if (result.sizes() == 3).all():  # else it depends on how polygons are cut
+        broken += disagreement_on_stretch(report, measures.l2.max(initial=0))
     if "width" in report:
         broken += check(options, output, report)
     seconds = {stage: report["seconds"].get(stage) for stage in STAGES}
-    return row(group, path, "wrapatlas", measures, faces=len(whole.sizes()), left_out=left_out,
+    return row(group, path, "wrapatlas", measures, faces=faces, left_out=left_out, folded=folds,
                efficiency=report.get("efficiency"), megabytes=report.get("peak_memory_mb"),
                failed="; ".join(broken), **seconds)
+
+
+def without_name(path, failure):
+    return str(failure).removeprefix(f"{path}: ")
+
+
+def unfolded_measures(mesh, width, height):
+    """(Measures, number of faces that have a position twice and are left out of them)."""
+    fold = folded(mesh)
+    mesh = mesh.subset(~fold) if fold.any() else mesh
+    measures = measured(mesh, width, height) if len(mesh.sizes()) else Measures(
+        l2=numpy.zeros(0), linf=numpy.zeros(0))
+    return measures, int(fold.sum())
 
 
 def unlike(source, result):
@@ -105,15 +122,17 @@ def broken_promises(measures, left_out, max_stretch):
     return broken
 
 
-def disagreements(report, measures, faces):
+def disagreements(report, counts):
     """Where the program says something else than what is measured."""
-    broken = [f"reports {report.get(name)} {name}, measured are {count}"
-              for name, count in (("faces", faces), ("charts", measures.charts))
-              if report.get(name) != count]
-    said, most = report["stretch"]["l2_max"], measures.l2.max(initial=0)
+    return [f"reports {report.get(name)} {name}, counted are {count}"
+            for name, count in counts.items() if report.get(name) != count]
+
+
+def disagreement_on_stretch(report, most):
+    said = report["stretch"]["l2_max"]
     if said is None or numpy.isfinite(most) and abs(said - most) > AGREEMENT * most:
-        broken.append(f"reports L2 stretch {said}, measured is {most:.4f}")
-    return broken
+        return [f"reports L2 stretch {said}, measured is {most:.4f}"]
+    return []
 
 
 def check(options, output, report):
@@ -134,18 +153,18 @@ def by_xatlas(options, group, path, folder):
     given, taken = (pathlib.Path(folder) / name for name in ("in.npz", "out.npz"))
     try:
         source = mesh_files.read(path)
-        corners = fans(source)
+        corners, _ = fans(source)
         triangles = source.corners[corners]
         numpy.savez(given, positions=source.positions.astype(numpy.float32),
                     triangles=triangles.astype(numpy.uint32))
         measure.run([sys.executable, str(XATLAS), str(given), str(taken)], str(path), options.limit)
     except (measure.Failure, ValueError) as failure:
-        return row(group, path, "xatlas", failed=str(failure))
+        return row(group, path, "xatlas", failed=without_name(path, failure))
     data = numpy.load(taken)
     result = mesh_files.Mesh(source.positions, 3 * numpy.arange(len(triangles) + 1),
                              triangles.ravel(), data["uvs"].astype(numpy.float64))
     placed = data["placed"]
-    measures = measured(result.subset(placed), *data["size"].tolist()) if placed.any() else Measures()
-    return row(group, path, "xatlas", measures, faces=len(triangles),
+    measures, folds = unfolded_measures(result.subset(placed), *data["size"].tolist())
+    return row(group, path, "xatlas", measures, faces=len(triangles), folded=folds,
                left_out=int((~placed).sum()), total=float(data["seconds"]),
                megabytes=float(data["megabytes"]), failed="")

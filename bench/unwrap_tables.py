@@ -8,8 +8,8 @@ from unwrap_runs import STAGES
 QUALITY = ["<", "<method", "files", "faces, median", "charts: min", "median", "max", "L2: median",
            "max", "L∞: median", "max", "angle, mean", "border, median", "in use, mean"]
 BROKEN = ["<", "<method", "no result", "charts that are no discs", "that overlap themselves",
-          "triangles flipped", "collapsed", "without UVs", "thin", "of these flipped",
-          "deepest, texels", "touches", "deepest, texels "]
+          "triangles flipped", "if cut otherwise", "collapsed", "without UVs", "folded", "thin",
+          "of these flipped", "deepest, texels", "touches", "deepest, texels "]
 
 
 def known(rows, name):
@@ -42,8 +42,8 @@ def times(label, rows):
 
 
 def broken(label, rows):
-    sums = ["not_discs", "crossing_charts", "flipped", "collapsed", "left_out", "thin",
-            "thin_flipped"]
+    sums = ["not_discs", "crossing_charts", "flipped", "otherwise_flipped", "collapsed",
+            "left_out", "folded", "thin", "thin_flipped"]
     return [label, rows[0].method, sum(row.charts is None for row in rows),
             *(sum(known(rows, name)) for name in sums),
             cell(max, known(rows, "thin_depth"), ".2g"), sum(known(rows, "touches")),

@@ -4,13 +4,15 @@ import itertools
 import json
 import random
 import struct
+import subprocess
+import sys
 import unittest
 import xml.etree.ElementTree
 import zlib
 
 import gltf_maker
 import support
-from support import PACKABLE, obj, obj_lines, obj_uvs, quick, rectangle, square
+from support import COMMAND, PACKABLE, obj, obj_lines, obj_uvs, quick, rectangle, square
 
 RUNS = [("modulo", wrap) for wrap in ("uv", "u", "v", "none")]
 RUNS += [(method, "none") for method in ("lprm02", "swg03", "zsgs04")]
@@ -285,6 +287,15 @@ class Outputs(support.CommandTest):
         first, second = (self.report("info", name, "--texcoord", str(k))["charts"]
                          for name in ("a.glb", "b.glb") for k in (0,))
         self.assertEqual(first, second)
+
+    def test_peak_memory_is_not_that_of_the_parent(self):
+        self.sample("machine.obj")
+        script = ("import subprocess, sys; big = bytearray(400 << 20); sys.stdout.write("
+                  "subprocess.run(sys.argv[1:], capture_output=True, text=True).stdout)")
+        command = [COMMAND, "check", "machine.obj", "--quiet", "--json", "-"]
+        done = subprocess.run([sys.executable, "-c", script, *command], cwd=self.folder,
+                              capture_output=True, text=True)
+        self.assertLess(json.loads(done.stdout)["peak_memory_mb"], 400)
 
     def test_report(self):
         self.sample("machine.obj")

@@ -28,13 +28,17 @@ struct ViewOptions {
 };
 
 /// The mesh seen from a little above (y is up), in parallel projection, lit from the viewer; both
-/// sides of faces are shown. One colour per face. O(faces + pixels drawn).
+/// sides of faces are shown. Preconditions: the mesh passes validate_mesh; a colour for each face,
+/// and a label for each or none. O(corners + rows of pixels that each face reaches over + pixels
+/// drawn) a view, for faces of few corners; some 100 bytes a pixel of one view.
 Image draw_mesh(const Mesh& mesh, std::span<const Color> face_colors,
                 const ViewOptions& options = {});
 
 /// The faces of an atlas at their UVs, filled with their colours; what lies outside [0,1] appears
-/// where a texture that repeats has it. `mesh` has the atlas applied (apply_atlas). One colour per
-/// face; `size`: pixels along the longer side of an atlas of width x height texels, 16 to 8192.
+/// where a texture that repeats has it, up to 16 times along an axis. Faces without UVs, or that
+/// reach farther than 1e6 / (3 * size) tiles, are left out. `mesh` has the atlas applied
+/// (apply_atlas). One colour per face; `size`: pixels along the longer side of an atlas of width x
+/// height texels, 16 to 8192; 30 bytes a pixel.
 Image draw_faces_on_atlas(const Mesh& mesh, std::span<const Color> face_colors, int width,
                           int height, int size, bool v_points_down = false);
 

@@ -1,4 +1,5 @@
 // A model as it looks: parallel projection, a depth per sample, lines where labels change.
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -43,7 +44,8 @@ Camera camera_at(double azimuth, const Mesh& mesh, int samples) {
   }
   const Vec3 mid = 0.5 * (low + high);
   camera.middle = mid.x * camera.right + mid.y * camera.up + mid.z * camera.back;
-  const double extent = std::max(high.x - low.x, high.y - low.y);
+  // Of a line seen end on the depth counts too, or its scale would have no bound.
+  const double extent = std::max({high.x - low.x, high.y - low.y, 1e-6 * (high.z - low.z)});
   camera.half = 0.5 * (samples - 1);
   camera.scale = extent > 0 ? kFilled * samples / extent : 1;
   return camera;
@@ -111,13 +113,23 @@ class Canvas {
  private:
   void draw_triangle(const std::array<Vec3, 3>& p, const Color& color, std::uint32_t label) {
     const std::array<Vec2, 3> flat{{{p[0].x, p[0].y}, {p[1].x, p[1].y}, {p[2].x, p[2].y}}};
-    for_each_sample(flat, size_, size_, [&](int x, int y, const std::array<double, 3>& w) {
-      const auto depth = static_cast<float>(w[0] * p[0].z + w[1] * p[1].z + w[2] * p[2].z);
-      const std::size_t at = std::size_t(y) * size_ + x;
-      if (depth <= depth_[at]) return;
-      depth_[at] = depth;
-      color_[at] = color;
-      label_[at] = label;
+    const double area = signed_area2(flat[0], flat[1], flat[2]);
+    // The plane of a sliver is a matter of rounding: its depths are kept to those of its corners.
+    const double farthest = std::min({p[0].z, p[1].z, p[2].z});
+    const double nearest = std::max({p[0].z, p[1].z, p[2].z});
+    for_each_span(flat, {0, 0, size_, size_}, [&](int y, int begin, int end) {
+      for (int x = begin; x < end; ++x) {
+        const Vec2 here{double(x), double(y)};
+        const double share_1 = signed_area2(flat[2], flat[0], here) / area;
+        const double share_2 = signed_area2(flat[0], flat[1], here) / area;
+        const double plane = p[0].z + share_1 * (p[1].z - p[0].z) + share_2 * (p[2].z - p[0].z);
+        const auto depth = static_cast<float>(std::clamp(plane, farthest, nearest));
+        const std::size_t at = std::size_t(y) * size_ + x;
+        if (!(depth > depth_[at])) continue;  // no number, no sample
+        depth_[at] = depth;
+        color_[at] = color;
+        label_[at] = label;
+      }
     });
   }
 
@@ -150,37 +162,6 @@ Image draw_mesh(const Mesh& mesh, std::span<const Color> face_colors, const View
     images.push_back(canvas.image());
   }
   return side_by_side(images, 0);
-}
-
-Image draw_faces_on_atlas(const Mesh& mesh, std::span<const Color> face_colors, int width,
-                          int height, int size, bool v_points_down) {
-  const double longer = std::max(width, height);
-  const int across = std::max(1, static_cast<int>(std::lround(size * (width / longer))));
-  const int down = std::max(1, static_cast<int>(std::lround(size * (height / longer))));
-  const int columns = across * kSamplesAcross, rows = down * kSamplesAcross;
-  std::vector<Color> samples(std::size_t(columns) * rows, kGround);
-  std::vector<Vec2> corners;
-  std::vector<std::array<std::uint32_t, 3>> cut;
-  for (std::uint32_t face = 0; face < mesh.face_count(); ++face) {
-    corners.clear();
-    cut.clear();
-    for (std::uint32_t c = mesh.face_begin[face]; c < mesh.face_begin[face + 1]; ++c) {
-      if (mesh.corner_texcoord[c] == kNone) break;
-      const Vec2 uv = mesh.texcoords[mesh.corner_texcoord[c]];
-      corners.push_back({uv.x * columns - 0.5, (v_points_down ? uv.y : 1 - uv.y) * rows - 0.5});
-    }
-    if (corners.size() != mesh.face_size(face)) continue;
-    triangulate_polygon(corners, cut);
-    for (const auto& [i, j, k] : cut) {
-      for_each_sample({corners[i], corners[j], corners[k]}, -1, -1,
-                      [&](int x, int y, const std::array<double, 3>&) {
-                        const int column = (x % columns + columns) % columns;
-                        const int row = (y % rows + rows) % rows;
-                        samples[std::size_t(row) * columns + column] = face_colors[face];
-                      });
-    }
-  }
-  return image_of_samples(samples, across, down);
 }
 
 }  // namespace wrapatlas

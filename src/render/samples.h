@@ -4,43 +4,48 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
+#include <utility>
 #include <vector>
 
+#include "render/coverage.h"
 #include "wrapatlas/geometry.h"
 #include "wrapatlas/view.h"
 
 namespace wrapatlas {
 
 inline constexpr int kSamplesAcross = 3;  ///< of a pixel, and down it
+inline constexpr double kFarthestSample = 1e6;
 
-/// Visits (x, y, weights of the corners) of each sample, at whole coordinates, that lies within the
-/// triangle, in rows [0, height) and columns [0, width), unless they are negative: no bound.
+/// Visits (y, begin, end) for each row of samples within `bounds` that a triangle has any of: those
+/// at whole x in [begin, end). A sample on an edge belongs to one side of it alone, so triangles
+/// that share an edge leave no gap and nothing is visited twice. Triangles of no area, or with a
+/// corner beyond kFarthestSample, have no samples. O(rows), however long and thin the triangle
+/// lies.
 template <typename Visit>
-void for_each_sample(const std::array<Vec2, 3>& corner, int width, int height, Visit&& visit) {
-  const double area = signed_area2(corner[0], corner[1], corner[2]);
-  if (!(std::abs(area) > 0) || !std::isfinite(area)) return;
+void for_each_span(const std::array<Vec2, 3>& corner, const PixelBox& bounds, Visit&& visit) {
+  if (signed_area2(corner[0], corner[1], corner[2]) == 0) return;
   Box2 box;
-  for (const Vec2 p : corner) box.add(p);
-  constexpr double kFar = 1e6;  // samples; a triangle that reaches farther is not drawn
-  if (box.min.x < -kFar || box.min.y < -kFar || box.max.x > kFar || box.max.y > kFar) return;
-  int left = static_cast<int>(std::ceil(box.min.x)), top = static_cast<int>(std::ceil(box.min.y));
-  int right = static_cast<int>(std::floor(box.max.x));
-  int bottom = static_cast<int>(std::floor(box.max.y));
-  if (width >= 0) {
-    left = std::max(left, 0);
-    right = std::min(right, width - 1);
-    top = std::max(top, 0);
-    bottom = std::min(bottom, height - 1);
+  for (const Vec2 p : corner) {
+    const bool usable = std::abs(p.x) <= kFarthestSample && std::abs(p.y) <= kFarthestSample;
+    if (!usable) return;  // NaN as well
+    box.add(p);
   }
-  for (int y = top; y <= bottom; ++y) {
-    for (int x = left; x <= right; ++x) {
-      const Vec2 p{double(x), double(y)};
-      const double a = signed_area2(corner[1], corner[2], p) / area;
-      const double b = signed_area2(corner[2], corner[0], p) / area;
-      const double c = 1 - a - b;
-      if (a >= 0 && b >= 0 && c >= 0) visit(x, y, std::array{a, b, c});
+  const auto first = [](double position) { return static_cast<int>(std::ceil(position)); };
+  const int bottom = std::min(bounds.bottom, first(box.max.y));
+  for (int y = std::max(bounds.top, first(box.min.y)); y < bottom; ++y) {
+    double left = box.max.x, right = box.min.x;
+    for (std::size_t i = 0; i < 3; ++i) {
+      // From above, whichever way the edge runs: both its triangles then round alike.
+      Vec2 from = corner[i], to = corner[(i + 1) % 3];
+      if (from.y > to.y) std::swap(from, to);
+      if (y < from.y || y >= to.y) continue;
+      const double x = from.x + (y - from.y) / (to.y - from.y) * (to.x - from.x);
+      left = std::min(left, x);
+      right = std::max(right, x);
     }
+    const int begin = std::max(bounds.left, first(left));
+    const int end = std::min(bounds.right, first(right));
+    if (begin < end) visit(y, begin, end);
   }
 }
 

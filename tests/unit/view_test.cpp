@@ -1,11 +1,10 @@
-// Pictures of a model, and of values of its faces.
+// Pictures of a model.
 #include "wrapatlas/view.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
-#include <set>
+#include <numbers>
 
 #include "support/solids.h"
 #include "wrapatlas/picture.h"
@@ -33,7 +32,7 @@ ViewOptions one_view(int size = 64) {
 Mesh cards(const std::vector<std::pair<double, double>>& size_and_depth) {
   std::vector<Vec3> positions;
   std::vector<test::Face> faces;
-  const double azimuth = M_PI / 6, elevation = M_PI / 9;
+  const double azimuth = std::numbers::pi / 6, elevation = std::numbers::pi / 9;
   const Vec3 right{std::cos(azimuth), 0, -std::sin(azimuth)};
   const Vec3 back{std::cos(elevation) * std::sin(azimuth), std::sin(elevation),
                   std::cos(elevation) * std::cos(azimuth)};
@@ -93,6 +92,88 @@ TEST(DrawMesh, LinesWhereLabelsChangeAndNowhereElse) {
   EXPECT_EQ(hidden.rgb, draw_mesh(mesh, white, options).rgb);
 }
 
+TEST(DrawMesh, ACubeShowsThreeSidesInTheirColours) {
+  const Mesh cube = test::bare_mesh(
+      {{-1, -1, -1},
+       {1, -1, -1},
+       {-1, 1, -1},
+       {1, 1, -1},
+       {-1, -1, 1},
+       {1, -1, 1},
+       {-1, 1, 1},
+       {1, 1, 1}},
+      {{4, 5, 7, 6}, {1, 3, 7, 5}, {2, 6, 7, 3}, {0, 2, 3, 1}, {0, 4, 6, 2}, {0, 1, 5, 4}});
+  const std::vector<Color> colors{{255, 0, 0}, {0, 255, 0}, {0, 0, 255},
+                                  {9, 9, 9},   {9, 9, 9},   {9, 9, 9}};
+  const Image image = draw_mesh(cube, colors, one_view(200));
+  // The light of a side is 0.35 + 0.65 times the cosine to the viewer, who is at azimuth 30
+  // degrees, elevation 20 degrees.
+  const double azimuth = std::numbers::pi / 6, elevation = std::numbers::pi / 9;
+  const auto lit = [](double cosine) {
+    return static_cast<std::uint8_t>(std::lround(255 * (0.35 + 0.65 * cosine)));
+  };
+  const Color front{lit(std::cos(elevation) * std::cos(azimuth)), 0, 0};
+  const Color side{0, lit(std::cos(elevation) * std::sin(azimuth)), 0};
+  const Color top{0, 0, lit(std::sin(elevation))};
+  EXPECT_EQ(pixel(image, 70, 120), front);
+  EXPECT_EQ(pixel(image, 165, 120), side);
+  EXPECT_EQ(pixel(image, 120, 24), top);
+  for (const int corner : {0, 199}) {
+    EXPECT_EQ(pixel(image, corner, 0), pixel(image, 0, 199)) << "nothing but ground";
+  }
+}
+
+TEST(DrawMesh, APolygonWithABayHasTheBay) {
+  Mesh mesh = cards({{1, 0}});
+  const Vec3 a = mesh.positions[0], b = mesh.positions[1], c = mesh.positions[2];
+  const Vec3 bay = 0.5 * (a + c) + 0.1 * (b - a);  // right of the middle: the notch is on the left
+  mesh = test::bare_mesh({a, b, c, mesh.positions[3], bay}, {{0, 1, 2, 3, 4}});
+  const Image image = draw_mesh(mesh, all(mesh, {250, 250, 250}), one_view(100));
+  EXPECT_EQ(pixel(image, 80, 50), (Color{250, 250, 250}));
+  EXPECT_EQ(pixel(image, 40, 15), (Color{250, 250, 250}));
+  EXPECT_EQ(pixel(image, 30, 50), pixel(image, 0, 0));
+}
+
+TEST(DrawMesh, ThinFacesInGreatNumberAreOneSurface) {
+  constexpr std::uint32_t kCount = 100'000;
+  const Mesh flat = cards({{1, 0}});
+  const Vec3 middle = 0.5 * (flat.positions[0] + flat.positions[2]);
+  const Vec3 right = 0.5 * (flat.positions[1] - flat.positions[0]);
+  const Vec3 up = 0.5 * (flat.positions[3] - flat.positions[0]);
+  std::vector<Vec3> positions{middle};
+  std::vector<test::Face> faces;
+  for (std::uint32_t i = 0; i < kCount; ++i) {
+    const double angle = 2 * std::numbers::pi * i / kCount;
+    positions.push_back(middle + std::cos(angle) * right + std::sin(angle) * up);
+    faces.push_back({0, i + 1, (i + 1) % kCount + 1});
+  }
+  const Mesh fan = test::bare_mesh(std::move(positions), faces);
+  const Image image = draw_mesh(fan, all(fan, {250, 250, 250}), one_view(300));
+  for (int y = 0; y < 300; ++y) {
+    for (int x = 0; x < 300; ++x) {
+      const double away = std::hypot(x - 149.5, y - 149.5);
+      if (away > 138 && away < 144) continue;
+      ASSERT_EQ(pixel(image, x, y)[0] >= 249, away <= 138) << x << " " << y;
+    }
+  }
+}
+
+TEST(DrawMesh, TheLineIsOnTheEdge) {
+  Mesh mesh = cards({{1, 0}});
+  const Vec3 low = 0.5 * (mesh.positions[0] + mesh.positions[1]);
+  const Vec3 high = 0.5 * (mesh.positions[2] + mesh.positions[3]);
+  const auto& p = mesh.positions;
+  mesh = test::bare_mesh({p[0], low, high, p[3], p[1], p[2]}, {{0, 1, 2, 3}, {1, 4, 5, 2}});
+  const std::vector<std::uint32_t> labels{3, kNone};
+  ViewOptions options = one_view(101);
+  options.face_labels = labels;
+  const Image image = draw_mesh(mesh, all(mesh, {250, 250, 250}), options);
+  for (int x = 10; x < 91; ++x) {
+    const bool dark = pixel(image, x, 50)[0] < 240;
+    EXPECT_EQ(dark, x == 50) << x;
+  }
+}
+
 TEST(DrawMesh, TakesAnything) {
   EXPECT_EQ(draw_mesh(Mesh{}, {}, one_view()).width, 64);
   const Mesh odd = test::bare_mesh({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {1e30, 0, 0}},
@@ -104,58 +185,6 @@ TEST(DrawMesh, TakesAnything) {
   const Image image = draw_mesh(ball, all(ball, {9, 99, 9}), options);
   EXPECT_EQ(image.width, 3 * 64);
   EXPECT_EQ(image.rgb, draw_mesh(ball, all(ball, {9, 99, 9}), options).rgb);
-}
-
-TEST(DrawFacesOnAtlas, WrapsAsTexturesDo) {
-  Mesh mesh = test::bare_mesh({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {{0, 1, 2, 3}});
-  mesh.texcoords = {{0.75, 0.25}, {1.25, 0.25}, {1.25, 0.75}, {0.75, 0.75}};
-  mesh.corner_texcoord = {0, 1, 2, 3};
-  const Color red{200, 0, 0};
-  const Image image = draw_faces_on_atlas(mesh, std::vector<Color>{red}, 64, 32, 64);
-  ASSERT_EQ(image.width, 64);
-  ASSERT_EQ(image.height, 32);
-  EXPECT_EQ(pixel(image, 60, 16), red);
-  EXPECT_EQ(pixel(image, 3, 16), red) << "beyond the border";
-  EXPECT_NE(pixel(image, 32, 16), red);
-  EXPECT_NE(pixel(image, 60, 3), red);
-  mesh.corner_texcoord[2] = kNone;
-  const Image none = draw_faces_on_atlas(mesh, std::vector<Color>{red}, 64, 32, 64);
-  EXPECT_EQ(pixel(none, 60, 16), pixel(none, 32, 16)) << "without all UVs it is nowhere";
-}
-
-TEST(DrawFacesOnAtlas, UpIsUpUnlessVPointsDown) {
-  Mesh mesh = test::bare_mesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}});
-  mesh.texcoords = {{0, 0}, {1, 0}, {0, 0.2}};
-  mesh.corner_texcoord = {0, 1, 2};
-  const Color red{200, 0, 0};
-  EXPECT_EQ(pixel(draw_faces_on_atlas(mesh, std::vector<Color>{red}, 64, 64, 64), 1, 62), red);
-  EXPECT_EQ(pixel(draw_faces_on_atlas(mesh, std::vector<Color>{red}, 64, 64, 64, true), 1, 1), red);
-}
-
-TEST(FaceColors, ValuesGetLighter) {
-  std::vector<double> values;
-  for (int i = -10; i <= 110; ++i) values.push_back(i / 100.0);
-  const std::vector<Color> colors = colors_of_values(values, 0, 1);
-  const auto luma = [](const Color& c) {  // about the lightness that the eye sees, 0 to 100
-    const auto linear = [](std::uint8_t value) { return std::pow(value / 255.0, 2.2); };
-    return 100 * std::cbrt(0.21 * linear(c[0]) + 0.72 * linear(c[1]) + 0.07 * linear(c[2]));
-  };
-  for (std::size_t i = 1; i < colors.size(); ++i) {
-    EXPECT_GE(luma(colors[i]), luma(colors[i - 1]) - 0.5) << values[i];
-  }
-  EXPECT_EQ(colors[0], colors[10]) << "below low as at low";
-  EXPECT_EQ(colors.back(), colors[110]);
-  EXPECT_GT(luma(colors[110]), luma(colors[10]) + 40);
-  const double bad[] = {std::numeric_limits<double>::quiet_NaN(),
-                        std::numeric_limits<double>::infinity()};
-  EXPECT_EQ(colors_of_values(bad, 0, 1)[0], (Color{128, 128, 128}));
-  EXPECT_EQ(colors_of_values(bad, 0, 1)[1], (Color{128, 128, 128}));
-}
-
-TEST(FaceColors, ChartsDiffer) {
-  const std::uint32_t charts[] = {0, 1, 2, 3, kNone};
-  const std::vector<Color> colors = colors_of_charts(charts);
-  EXPECT_EQ(std::set<Color>(colors.begin(), colors.end()).size(), 5U);
 }
 
 }  // namespace

@@ -136,7 +136,7 @@ Status refuse_useless(const CLI::App& app, const PackArguments& a) {
   }
   const std::string no_picture = "no picture is drawn", add_picture = "add --image FILE";
   const Ignored ignored[] = {
-      {"--image-size", a.image.empty(), no_picture, add_picture},
+      {"--image-size", a.image.empty() && !a.draws_atlas, no_picture, add_picture},
       {"--image-tiles", a.image.empty(), no_picture, add_picture},
       {"--image-tiles", wrap == Wrap::none, "nothing wraps, so there is nothing to repeat",
        "leave it out"},

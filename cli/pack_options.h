@@ -27,6 +27,7 @@ struct PackArguments {
   int texcoord = 0;
   bool quiet = false, verbose = false, no_inner = false;
   PictureOptions picture;
+  bool draws_atlas = false;              ///< the command has a picture of it beside --image
   std::vector<OutputPath> more_outputs;  ///< that the command adds to -o, --image and --json
   std::vector<std::string> notes;        ///< on the options, for the user
   PackOptions options;  ///< complete after resolve_pack_options, but for the density

@@ -37,25 +37,24 @@ struct UnwrapArguments {
 /// What was mended on the way in.
 void print_repairs(const PackArguments& arguments, const SurfaceReport& surface) {
   if (arguments.quiet) return;
-  const auto note = [&](std::uint32_t count, const char* one, const char* many, const char* what) {
-    if (count == 0) return;
-    say("{}: note: {} {}\n", arguments.input, quantity(count, one, many), what);
+  const auto note = [&](std::uint32_t count, const char* noun, const char* what) {
+    if (count > 0) say("{}: note: {} {}\n", arguments.input, quantity(count, noun), what);
   };
-  note(surface.folded_faces, "face", "",
+  note(surface.folded_faces, "face",
        "using a point twice: no part of the surface, each has a chart of its own");
-  note(surface.flat_faces, "face", "", "of no area");
-  note(surface.duplicate_faces, "face", "", "lying on another face of the same points");
-  note(surface.turned_faces, "face", "",
+  note(surface.flat_faces, "face", "of no area");
+  note(surface.duplicate_faces, "face", "lying on another face of the same points");
+  note(surface.turned_faces, "face",
        "wound against the rest of the surface: unwrapped as if turned, the winding stays");
-  note(surface.one_sided_edges, "edge", "", "where the surface has one side only: cut there");
-  note(surface.crowded_edges, "edge", "",
+  note(surface.one_sided_edges, "edge", "where the surface has one side only: cut there");
+  note(surface.crowded_edges, "edge",
        "of more than two faces: the flattest pairs go on in each other");
-  note(surface.shared_points, "point", "", "where parts of the surface touch: cut there");
+  note(surface.shared_points, "point", "where parts of the surface touch: cut there");
 }
 
 struct Worst {
   double l2 = 0, linf = 0;
-  std::size_t bad = 0, lscm = 0;
+  std::size_t bad = 0;
 };
 
 Worst worst_of(const Unwrapping& unwrapping) {
@@ -64,7 +63,6 @@ Worst worst_of(const Unwrapping& unwrapping) {
     worst.l2 = std::max(worst.l2, chart.distortion.l2);
     worst.linf = std::max(worst.linf, chart.distortion.linf);
     worst.bad += chart.is_good ? 0 : 1;
-    worst.lscm += chart.used_lscm ? 1 : 0;
   }
   return worst;
 }
@@ -187,6 +185,7 @@ Status save_heat(const UnwrapArguments& arguments, const Unwrapping& unwrapping,
 /// What would be ignored, or cannot be done.
 Status check_pictures(const CLI::App& app, UnwrapArguments& arguments) {
   const bool unpacked = arguments.last != Stage::packed;
+  arguments.pack.draws_atlas = !arguments.heat.empty();
   const std::string why = "nothing is packed", remedy = "leave it out, or --stop-after";
   const Ignored ignored[] = {
       {"--heat", unpacked, why, remedy},

@@ -45,7 +45,9 @@ struct Surface {
   std::vector<std::uint32_t> corner_source;   ///< per corner: the mesh's
   std::vector<std::uint32_t> face_source;     ///< per face: the mesh's; ascending
   std::vector<std::uint32_t> triangle_begin;  ///< per face; face_count() + 1 entries
-  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< corners; of a face size - 2 of them
+  /// Corners; of a face size - 2 of them: a fan from its first corner in the mesh where that lies
+  /// within it, or else by ear clipping.
+  std::vector<std::array<std::uint32_t, 3>> triangles;
   std::vector<std::uint32_t> folded_faces;  ///< faces of the mesh that are no part of this
   SurfaceReport report;
 

@@ -272,6 +272,31 @@ class SurfaceBuilder {
     }
   }
 
+  /// The corner of the face, from 0 on, that is the first one in the file.
+  [[nodiscard]] std::uint32_t first_in_file(std::uint32_t face) const {
+    const std::uint32_t source = surface_.face_source[face];
+    return is_turned_[source] ? mesh_.face_size(source) - 1 : 0;
+  }
+
+  /// As most programs cut polygons, so that what is unflipped here is so there. False if a triangle
+  /// would lie outside the polygon.
+  static bool cut_as_fan(std::span<const Vec2> points, std::uint32_t first,
+                         std::vector<std::array<std::uint32_t, 3>>& triangles) {
+    const auto size = static_cast<std::uint32_t>(points.size());
+    double sign = 0;
+    for (std::uint32_t k = 1; k + 1 < size; ++k) {
+      const std::uint32_t a = (first + k) % size, b = (first + k + 1) % size;
+      const double area = signed_area2(points[first], points[a], points[b]);
+      if (size > 3 && (area == 0 || area * sign < 0)) {
+        triangles.clear();
+        return false;
+      }
+      sign = area;
+      triangles.push_back({first, a, b});
+    }
+    return true;
+  }
+
   void triangulate() {
     surface_.triangle_begin.assign(1, 0);
     std::vector<Vec2> flat;
@@ -286,7 +311,7 @@ class SurfaceBuilder {
           flat[c - begin] = plane.project(surface_.points[surface_.corner_vertex[c]]);
         }
       }
-      triangulate_polygon(flat, cut);
+      if (!cut_as_fan(flat, first_in_file(face), cut)) triangulate_polygon(flat, cut);
       for (const auto& [i, j, k] : cut) {
         surface_.triangles.push_back({begin + i, begin + j, begin + k});
       }

@@ -3,8 +3,8 @@
 // The growth is that of Sander, Wood, Gortler, Snyder & Hoppe, Multi-chart geometry images (SGP
 // 2003); splitting and merging until the stretch is within a limit is Nöll & Stricker's (EGSR 2011,
 // section 3), of which they give no details. These are ours: a chart that fails is grown anew from
-// two seeds of its own; then neighbours become one, longest common border first, if their union is
-// good.
+// two seeds of its own; then neighbours become one if their union is good, those first of which one
+// has most of its border in common with the other.
 #include "segment/segment.h"
 
 #include <algorithm>
@@ -150,7 +150,7 @@ class Segmenter {
     double share = 0;  ///< of all that the one with less of it has in common with others
   };
 
-  /// Pairs of neighbours, longest common border first.
+  /// Pairs of neighbours, the largest share first.
   [[nodiscard]] std::vector<Border> borders() const {
     std::vector<Border> borders;
     for (std::uint32_t c = 0; c < surface_.corner_twin.size(); ++c) {

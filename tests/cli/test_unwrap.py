@@ -157,6 +157,10 @@ class Unwrap(support.CommandTest):
             data = self.path(name).read_bytes()
             self.assertEqual(data[:8], b"\x89PNG\r\n\x1a\n")
             self.assertEqual(struct.unpack(">II", data[16:24]), (width, height))
+        self.unwrap(source, "a.obj", "--heat", "small.png", "--image-size", 64)
+        self.assertEqual(struct.unpack(">II", self.path("small.png").read_bytes()[16:24]), (64, 64))
+        self.refuse(2, ("--image-size", "no picture"), "unwrap", source, "-o", "c.obj",
+                    "--image-size", 64)
         self.succeed("unwrap", source, "-o", "b.obj", "--stop-after", "charts", "--view", "v.png")
         self.assertEqual(self.path("v.png").read_bytes(), self.path("view.png").read_bytes())
         refusals = ((("--heat", "v.png"), "nothing is packed", ("--stop-after", "flat")),

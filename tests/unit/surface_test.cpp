@@ -177,6 +177,45 @@ TEST(Surface, ObjectsAndLabelsAndSeamsPartIt) {
   EXPECT_EQ(surface_of(mesh, seams).report.border_edges, 12U);
 }
 
+TEST(Surface, PolygonsAreCutAsAFanFromTheFirstCornerInTheFile) {
+  const std::vector<Vec3> ring{{0, 0, 0}, {2, 0, 0}, {3, 1, 0}, {2, 2, 0}, {0, 2, 0}};
+  const std::vector<test::Face> faces{{1, 2, 3, 4, 0}};
+  const Surface s = surface_of(bare_mesh(ring, faces));
+  ASSERT_EQ(s.triangles.size(), 3U);
+  for (std::uint32_t k = 0; k < 3; ++k) {
+    EXPECT_EQ(s.triangles[k], (std::array<std::uint32_t, 3>{0, k + 1, k + 2}));
+  }
+  // Turned over beside two that are not: still from its first corner in the file, point 1.
+  const std::vector<Vec3> more{{0, 0, 0}, {2, 0, 0},  {3, 1, 0}, {2, 2, 0},
+                               {0, 2, 0}, {1, -1, 0}, {-1, 1, 0}};
+  const Surface turned = surface_of(bare_mesh(more, {{1, 0, 4, 3, 2}, {1, 0, 5}, {0, 4, 6}}));
+  ASSERT_EQ(turned.report.turned_faces, 1U);
+  std::uint32_t of_turned = 0;
+  for (const auto& triangle : turned.triangles) {
+    const std::uint32_t face = turned.face_source[turned.corner_face[triangle[0]]];
+    if (face != 0) continue;
+    ++of_turned;
+    EXPECT_EQ(turned.points[turned.corner_vertex[triangle[0]]], more[1]);
+  }
+  EXPECT_EQ(of_turned, 3U);
+}
+
+TEST(Surface, PolygonsWithABayAreNotCutThroughIt) {
+  // From corner 0 the bay at corner 2 lies across the fan.
+  const std::vector<Vec3> bay{{0, 0, 0}, {4, 0, 0}, {1, 1, 0}, {0, 4, 0}};
+  const Surface fine = surface_of(bare_mesh(bay, {{0, 1, 2, 3}}));
+  EXPECT_EQ(fine.triangles[0], (std::array<std::uint32_t, 3>{0, 1, 2})) << "the fan stays inside";
+  const Surface bent = surface_of(bare_mesh(bay, {{1, 2, 3, 0}}));
+  double area = 0;
+  for (const auto& [a, b, c] : bent.triangles) {
+    const auto at = [&](std::uint32_t corner) { return bent.points[bent.corner_vertex[corner]]; };
+    const double part = cross(at(b) - at(a), at(c) - at(a)).z;
+    EXPECT_GT(part, 0);
+    area += part / 2;
+  }
+  EXPECT_DOUBLE_EQ(area, 4);
+}
+
 TEST(Surface, HardEdgesPartIt) {
   const Mesh roof =
       bare_mesh({{0, 0, 0}, {0, 1, 0}, {1, 0, 0}, {-1, 0, 1}}, {{0, 2, 1}, {0, 1, 3}});

@@ -122,7 +122,8 @@ Status save_view(const UnwrapArguments& arguments, const Mesh& mesh,
                  std::span<const std::uint32_t> face_chart) {
   if (arguments.view.empty()) return Done{};
   ViewOptions options;
-  options.face_labels = face_chart;
+  const std::vector<SeamEdge> seams = seam_edges(mesh, face_chart);
+  options.seams = seams;
   return save_png(arguments.view, draw_mesh(mesh, colors_of_charts(face_chart), options));
 }
 

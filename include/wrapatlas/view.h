@@ -20,17 +20,26 @@ std::vector<Color> colors_of_charts(std::span<const std::uint32_t> face_chart);
 /// above, lighter all the way; grey for what is not finite. Precondition: low < high.
 std::vector<Color> colors_of_values(std::span<const double> values, double low, double high);
 
+/// An edge at which an atlas is cut although the surface goes on.
+struct SeamEdge {
+  Vec3 from, to;
+};
+
+/// The edges between faces of unequal charts, and those of one chart on whose two sides the UVs of
+/// an end differ. Not those where the surface ends. `mesh` passes validate_mesh; a chart for each
+/// face. O(n log n).
+std::vector<SeamEdge> seam_edges(const Mesh& mesh, std::span<const std::uint32_t> face_chart);
+
 struct ViewOptions {
   int size = 768;  ///< pixels of each view, square; 16 to 4096
   int views = 2;   ///< side by side, from around the model; 1 to 8
-  /// Per face: lines are drawn between faces of unequal labels. Empty: none.
-  std::span<const std::uint32_t> face_labels;
+  std::span<const SeamEdge> seams;  ///< drawn as dark lines where they are not hidden
 };
 
 /// The mesh seen from a little above (y is up), in parallel projection, lit from the viewer; both
-/// sides of faces are shown. Preconditions: the mesh passes validate_mesh; a colour for each face,
-/// and a label for each or none. O(corners + rows of pixels that each face reaches over + pixels
-/// drawn) a view, for faces of few corners; some 100 bytes a pixel of one view.
+/// sides of faces are shown. Preconditions: the mesh passes validate_mesh; a colour for each face.
+/// O(corners + rows of pixels that each face reaches over + pixels drawn) a view, for faces of few
+/// corners; some 100 bytes a pixel of one view.
 Image draw_mesh(const Mesh& mesh, std::span<const Color> face_colors,
                 const ViewOptions& options = {});
 

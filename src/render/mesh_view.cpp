@@ -1,4 +1,4 @@
-// A model as it looks: parallel projection, a depth per sample, lines where labels change.
+// A model as it looks: parallel projection, a depth per sample, lines along its seams.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -54,12 +54,10 @@ Camera camera_at(double azimuth, const Mesh& mesh, int samples) {
 /// One view's samples.
 class Canvas {
  public:
-  Canvas(int size, const ViewOptions& options)
+  explicit Canvas(int size)
       : size_(size * kSamplesAcross),
-        options_(options),
         color_(std::size_t(size_) * size_, kGround),
-        depth_(color_.size(), -std::numeric_limits<float>::infinity()),
-        label_(color_.size(), kNone) {}
+        depth_(color_.size(), -std::numeric_limits<float>::infinity()) {}
 
   void draw(const Mesh& mesh, std::span<const Color> face_colors, const Camera& camera) {
     std::vector<Vec2> flat;
@@ -79,27 +77,18 @@ class Canvas {
       triangulate_polygon(flat, cut);
       const double light = 0.35 + 0.65 * std::abs(dot(unit(normal), camera.back));
       const Color color = mix({0, 0, 0}, face_colors[face], light);
-      const std::uint32_t label = options_.face_labels.empty() ? 0 : options_.face_labels[face];
-      for (const auto& [i, j, k] : cut) {
-        draw_triangle({corners[i], corners[j], corners[k]}, color, label);
-      }
+      for (const auto& [i, j, k] : cut) draw_triangle({corners[i], corners[j], corners[k]}, color);
     }
   }
 
-  /// Samples where the label changes on the surface, not where one part hides another.
-  void draw_seams() {
-    const int reach = std::max(1, size_ / 700);
+  /// Squares of samples along each seam, where the surface is no nearer than the seam.
+  void draw_seams(std::span<const SeamEdge> seams, const Camera& camera) {
     std::vector<bool> is_seam(color_.size(), false);
-    for (int y = 0; y < size_; ++y) {
-      for (int x = 0; x < size_; ++x) {
-        const std::size_t at = std::size_t(y) * size_ + x;
-        for (int d = 1; d <= reach; ++d) {
-          if (x + d < size_ && parts(at, at + d, d)) is_seam[at] = is_seam[at + d] = true;
-          if (y + d < size_ && parts(at, at + std::size_t(d) * size_, d)) {
-            is_seam[at] = is_seam[at + std::size_t(d) * size_] = true;
-          }
-        }
-      }
+    for (const SeamEdge& seam : seams) {
+      const Vec3 from = camera.place(seam.from), step = camera.place(seam.to) - from;
+      const double steps = std::ceil(std::max({1.0, std::abs(step.x), std::abs(step.y)}));
+      if (!(steps < 4.0 * size_) || !std::isfinite(from.z + step.z)) continue;
+      for (int i = 0; i <= static_cast<int>(steps); ++i) mark(is_seam, from + (i / steps) * step);
     }
     for (std::size_t i = 0; i < color_.size(); ++i) {
       if (is_seam[i]) color_[i] = mix(color_[i], kGround, 0.85);
@@ -111,7 +100,7 @@ class Canvas {
   }
 
  private:
-  void draw_triangle(const std::array<Vec3, 3>& p, const Color& color, std::uint32_t label) {
+  void draw_triangle(const std::array<Vec3, 3>& p, const Color& color) {
     const std::array<Vec2, 3> flat{{{p[0].x, p[0].y}, {p[1].x, p[1].y}, {p[2].x, p[2].y}}};
     const double area = signed_area2(flat[0], flat[1], flat[2]);
     // The plane of a sliver is a matter of rounding: its depths are kept to those of its corners.
@@ -128,23 +117,27 @@ class Canvas {
         if (!(depth > depth_[at])) continue;  // no number, no sample
         depth_[at] = depth;
         color_[at] = color;
-        label_[at] = label;
       }
     });
   }
 
-  [[nodiscard]] bool parts(std::size_t a, std::size_t b, int apart) const {
-    const bool both = std::isfinite(depth_[a]) && std::isfinite(depth_[b]);
+  void mark(std::vector<bool>& is_seam, const Vec3& p) const {
     constexpr float kSteepest = 8;  // depth per sample beyond which it is another part
-    return both && label_[a] != label_[b] &&
-           std::abs(depth_[a] - depth_[b]) < kSteepest * static_cast<float>(apart);
+    const int reach = std::max(1, size_ / 900);
+    const auto depth = static_cast<float>(p.z) + kSteepest * static_cast<float>(reach);
+    const int middle_x = static_cast<int>(std::lround(p.x));
+    const int middle_y = static_cast<int>(std::lround(p.y));
+    for (int y = std::max(0, middle_y - reach); y <= std::min(size_ - 1, middle_y + reach); ++y) {
+      for (int x = std::max(0, middle_x - reach); x <= std::min(size_ - 1, middle_x + reach); ++x) {
+        const std::size_t at = std::size_t(y) * size_ + x;
+        if (std::isfinite(depth_[at]) && depth_[at] <= depth) is_seam[at] = true;
+      }
+    }
   }
 
   int size_;  // samples
-  const ViewOptions& options_;
   std::vector<Color> color_;
   std::vector<float> depth_;
-  std::vector<std::uint32_t> label_;
 };
 
 }  // namespace
@@ -153,11 +146,12 @@ Image draw_mesh(const Mesh& mesh, std::span<const Color> face_colors, const View
   std::vector<Image> images;
   const int size = std::clamp(options.size, 16, 4096), views = std::clamp(options.views, 1, 8);
   for (int view = 0; view < views; ++view) {
-    Canvas canvas(size, options);
+    Canvas canvas(size);
     if (mesh.face_count() > 0) {
       const double azimuth = kFirstAzimuth + 2 * std::numbers::pi * view / views;
-      canvas.draw(mesh, face_colors, camera_at(azimuth, mesh, size * kSamplesAcross));
-      canvas.draw_seams();
+      const Camera camera = camera_at(azimuth, mesh, size * kSamplesAcross);
+      canvas.draw(mesh, face_colors, camera);
+      canvas.draw_seams(options.seams, camera);
     }
     images.push_back(canvas.image());
   }

@@ -68,28 +68,55 @@ TEST(DrawMesh, FillsMostOfTheViewAndBothSidesShow) {
   }
 }
 
-TEST(DrawMesh, LinesWhereLabelsChangeAndNowhereElse) {
+TEST(DrawMesh, LinesAlongSeamsThatAreNotHidden) {
   Mesh mesh = test::sheet(2, true);
   const std::vector<Color> colors = all(mesh, {255, 255, 255});
   ViewOptions options = one_view(128);
   const Image plain = draw_mesh(mesh, colors, options);
-  const std::vector<std::uint32_t> same{4, 4, 4, 4}, halves{1, 2, 1, 2};
-  options.face_labels = same;
-  EXPECT_EQ(draw_mesh(mesh, colors, options).rgb, plain.rgb);
-  options.face_labels = halves;
+  const std::vector<SeamEdge> across = seam_edges(mesh, std::vector<std::uint32_t>{1, 2, 1, 2});
+  options.seams = across;
   const Image lined = draw_mesh(mesh, colors, options);
   std::size_t darker = 0;
   for (std::size_t i = 0; i < plain.rgb.size(); ++i) darker += lined.rgb[i] < plain.rgb[i] ? 1 : 0;
   EXPECT_GT(darker, 100U);
   EXPECT_LT(darker, plain.rgb.size() / 20) << "a line, no more";
-  // One card before another: no line where the one hides the other.
+  // One card before another: no line of the one behind.
   mesh = cards({{1, 0}, {0.5, 9}});
-  const std::vector<std::uint32_t> two{1, 2};
-  options.face_labels = two;
   const std::vector<Color> white = all(mesh, {255, 255, 255});
-  const Image hidden = draw_mesh(mesh, white, options);
-  options.face_labels = {};
-  EXPECT_EQ(hidden.rgb, draw_mesh(mesh, white, options).rgb);
+  const Vec3 back = 0.5 * (mesh.positions[4] + mesh.positions[6]);
+  const double far = std::sqrt(dot(back, back));
+  const auto line_at = [&](double depth) {
+    const Vec3 middle = (depth / far) * back, reach = 0.2 * (mesh.positions[1] - mesh.positions[0]);
+    return std::vector<SeamEdge>{{middle - reach, middle + reach}};
+  };
+  options.seams = {};
+  const Image bare = draw_mesh(mesh, white, options);
+  const std::vector<SeamEdge> behind = line_at(0), before = line_at(9);
+  options.seams = behind;
+  EXPECT_EQ(draw_mesh(mesh, white, options).rgb, bare.rgb);
+  options.seams = before;
+  EXPECT_NE(draw_mesh(mesh, white, options).rgb, bare.rgb);
+}
+
+TEST(SeamEdges, LieBetweenChartsAndWhereAChartIsCutOpen) {
+  // Two squares side by side; the one edge that both have.
+  Mesh mesh = test::bare_mesh({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 1, 0}, {1, 1, 0}, {2, 1, 0}},
+                              {{0, 1, 4, 3}, {1, 2, 5, 4}});
+  const std::vector<std::uint32_t> one{7, 7}, two{7, 8};
+  EXPECT_TRUE(seam_edges(mesh, one).empty());
+  const auto between = seam_edges(mesh, two);
+  ASSERT_EQ(between.size(), 1U);
+  EXPECT_EQ(between[0].from + between[0].to, (Vec3{2, 1, 0}));
+  for (const Vec3& p : mesh.positions) mesh.texcoords.push_back({p.x, p.y});
+  mesh.corner_texcoord = mesh.corner_position;
+  EXPECT_TRUE(seam_edges(mesh, one).empty());
+  mesh.texcoords.push_back(mesh.texcoords[1]);  // the same value again is no cut
+  mesh.corner_texcoord[4] = 6;
+  EXPECT_TRUE(seam_edges(mesh, one).empty());
+  mesh.texcoords[6] = {1.25, 0};
+  EXPECT_EQ(seam_edges(mesh, one).size(), 1U);
+  mesh.corner_texcoord[4] = kNone;
+  EXPECT_EQ(seam_edges(mesh, one).size(), 1U) << "a face without UVs beside one with";
 }
 
 TEST(DrawMesh, ACubeShowsThreeSidesInTheirColours) {
@@ -164,9 +191,9 @@ TEST(DrawMesh, TheLineIsOnTheEdge) {
   const Vec3 high = 0.5 * (mesh.positions[2] + mesh.positions[3]);
   const auto& p = mesh.positions;
   mesh = test::bare_mesh({p[0], low, high, p[3], p[1], p[2]}, {{0, 1, 2, 3}, {1, 4, 5, 2}});
-  const std::vector<std::uint32_t> labels{3, kNone};
   ViewOptions options = one_view(101);
-  options.face_labels = labels;
+  const std::vector<SeamEdge> seams = seam_edges(mesh, std::vector<std::uint32_t>{3, kNone});
+  options.seams = seams;
   const Image image = draw_mesh(mesh, all(mesh, {250, 250, 250}), options);
   for (int x = 10; x < 91; ++x) {
     const bool dark = pixel(image, x, 50)[0] < 240;

@@ -88,6 +88,9 @@ def plate(triangles):
     return points, numpy.vstack([corners[:, [0, 1, 2]], corners[:, [0, 2, 3]]])
 
 
+SHAPES = {"sphere": sphere, "torus": torus, "plate": plate}
+
+
 def write_off(path, points, faces):
     with open(path, "w") as file:
         file.write(f"OFF\n{len(points)} {len(faces)} 0\n")
@@ -108,7 +111,8 @@ def measure_all(options, folder):
             rows.append((name, row.method, "", "", "", "", "", row.failed.splitlines()[0]))
         measure.progress(" ".join(map(str, rows[-1])))
 
-    for name, make in (("sphere", sphere), ("torus", torus), ("plate", plate)):
+    for name in options.shapes.split(","):
+        make = SHAPES[name]
         xatlas = options.xatlas
         for count in map(int, options.triangles.split(",")):
             path = pathlib.Path(folder) / f"{name}.off"
@@ -128,11 +132,16 @@ def main():
     measure.add_options(parser)
     parser.add_argument("--triangles", default="10000,30000,100000,300000,1000000",
                         help="comma-separated; default %(default)s")
+    parser.add_argument("--shapes", default=",".join(SHAPES),
+                        help="comma-separated; default %(default)s")
     parser.add_argument("--max-stretch", type=float, default=2.0, help="of wrapatlas; default 2")
     parser.add_argument("--limit", type=float, default=600.0, help="seconds a mesh; default 600")
     parser.add_argument("--xatlas", action="store_true", help="measure xatlas too")
     parser.add_argument("--svg", type=pathlib.Path, help="write the plot to this file")
     options = parser.parse_args()
+    unknown = set(options.shapes.split(",")) - set(SHAPES)
+    if unknown:
+        parser.error(f"no such shape: {unknown.pop()}")
     measure.print_origin(options, f"limit {options.limit:g} s")
     with tempfile.TemporaryDirectory(prefix="wrapatlas_large") as folder:
         rows, series = measure_all(options, folder)

@@ -1,5 +1,6 @@
 """A plot with a logarithmic axis of values, and of places too if they span decades, as SVG."""
 
+import itertools
 import math
 import sys
 
@@ -9,7 +10,7 @@ sys.path.insert(0, str(measure.REPOSITORY / "docs" / "figures"))
 import svg  # noqa: E402
 
 LEFT, RIGHT, TOP, BOTTOM = 70, 600, 56, 420
-COLOURS = [svg.BLUE, svg.AMBER, svg.GREEN, svg.RED]
+COLOURS = [svg.BLUE, svg.AMBER, svg.GREEN, svg.RED, "#8a4fc7", "#00a0a8"]
 
 
 class Axis:
@@ -52,7 +53,7 @@ def plot(title, across, series, logarithmic_across=True):
         canvas.text(x.at(tick), BOTTOM + 18, tick_text(tick), size=12, anchor="middle")
     canvas.path([(LEFT, TOP), (LEFT, BOTTOM), (RIGHT, BOTTOM)], stroke=svg.INK, line=1.2)
     labels = []  # where there is text already
-    for colour, (name, line) in zip(COLOURS, series.items()):
+    for colour, (name, line) in zip(itertools.cycle(COLOURS), series.items()):
         places = [(x.at(place), y.at(value)) for place, value in line]
         canvas.path(places, stroke=colour, line=2)
         for a, b in places:

@@ -47,6 +47,8 @@ Command make_pack_command(CLI::App& parser);
 Command make_check_command(CLI::App& parser);
 Command make_info_command(CLI::App& parser);
 Command make_unwrap_command(CLI::App& parser);
+Command make_bench_command(CLI::App& parser);
+Command make_report_command(CLI::App& parser);
 
 /// Writes the object to a file, or to standard output for "-".
 Status write_json(const std::string& path, const Json& object);

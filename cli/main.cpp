@@ -32,13 +32,15 @@ int run(int argc, char** argv) {
       "  wrapatlas unwrap bare.obj -o unwrapped.obj --image atlas.png\n"
       "  wrapatlas check packed.glb --ref model.glb --resolution 2048 --padding 4 --wrap uv");
 
-  const Command commands[] = {make_pack_command(parser), make_check_command(parser),
-                              make_info_command(parser), make_unwrap_command(parser)};
+  const Command commands[] = {make_pack_command(parser),  make_check_command(parser),
+                              make_info_command(parser),  make_unwrap_command(parser),
+                              make_bench_command(parser), make_report_command(parser)};
   if (argc > 1 && argv[1][0] != '-' &&
       std::none_of(std::begin(commands), std::end(commands),
                    [&](const Command& command) { return command.app->get_name() == argv[1]; })) {
-    return report_error({wrapatlas::ErrorKind::usage, argv[1], "no such command",
-                         "use unwrap, pack, check or info; wrapatlas --help says more"});
+    return report_error(
+        {wrapatlas::ErrorKind::usage, argv[1], "no such command",
+         "use unwrap, pack, check, info, bench or report; wrapatlas --help says more"});
   }
   try {
     parser.parse(argc, argv);

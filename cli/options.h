@@ -9,39 +9,15 @@
 #include <string>
 #include <vector>
 
+#include "pack/names.h"
 #include "wrapatlas/charts.h"
 #include "wrapatlas/pack.h"
 #include "wrapatlas/result.h"
 
 namespace wrapatlas::cli {
 
-/// The values of an option and how they are written. The first columns are names of the interface.
-template <typename E>
-struct Named {
-  const char* name;
-  E value;
-};
-inline constexpr Named<Wrap> kWraps[] = {
-    {"uv", Wrap::uv}, {"u", Wrap::u}, {"v", Wrap::v}, {"none", Wrap::none}};
-inline constexpr Named<Method> kMethods[] = {{"guided", Method::guided},
-                                             {"modulo", Method::modulo},
-                                             {"swg03", Method::swg03},
-                                             {"zsgs04", Method::zsgs04},
-                                             {"lprm02", Method::lprm02}};
 inline constexpr Named<Stacked> kStacked[] = {{"separate", Stacked::separate},
                                               {"keep", Stacked::keep}};
-inline constexpr Named<Coverage> kCoverages[] = {{"conservative", Coverage::conservative},
-                                                 {"center", Coverage::center}};
-inline constexpr Named<RotationBase> kRotationBases[] = {{"input", RotationBase::input},
-                                                         {"box", RotationBase::box}};
-
-template <typename E, std::size_t N>
-const char* name_of(const Named<E> (&table)[N], E value) {
-  for (const Named<E>& row : table) {
-    if (row.value == value) return row.name;
-  }
-  return "";
-}
 
 Error usage(std::string where, std::string what, std::string remedy);
 

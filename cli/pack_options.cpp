@@ -56,29 +56,7 @@ void add_search_options(CLI::App& app, PackArguments& a) {
   add_number(app, "--moves", options.moves, {0, 1e15, "moves"},
              "guided: search for so many moves of charts instead of a time, so that the result is "
              "the same on every machine; 0: --time counts");
-  add_number(
-      app, "--rotations", options.rotations, {1, 3600, "angles"},
-      "Angles each chart is tried at (lprm02 has one of its own). guided: in best fit; when it "
-      "separates charts it has more of its own");
-  add_choice(app, "--rotation-base", options.rotation_base, kRotationBases,
-             "Angles counted from the chart's input axes (the paper), or from its smallest box");
-  add_number(
-      app, "--grid", options.grid, {0, 8192, "cells"},
-      "Cells along the longer side of the search grid; finer is slower and, as a rule, "
-      "denser. 0: guided, a cell to a texel up to 2048, or 4096 for more than 200 charts; the "
-      "others 256, more for many charts");
-  add_choice(app, "--coverage", options.coverage, kCoverages,
-             "When a cell belongs to a chart: conservative (safe), or center (the paper's; charts "
-             "may overlap by part of a cell)");
-  add_number(app, "--scale-start", options.start_upper, {0.1, 1},
-             "Upper end of the scale search at its start, in parts of the scale that would fill "
-             "the atlas; the paper prints 0.9");
-  add_number(app, "--lambda", options.lambda, {0, 1e6},
-             "modulo: how much worse placements count that lie on top of the packing");
-  app.add_flag("--no-inner", a.no_inner, "modulo: leave out the four inner strategies");
-  app.add_flag("--all-sides", options.all_sides, "zsgs04: try all four sides for every chart");
-  add_number(app, "--seed", options.seed, {0, 4294967295},
-             "guided: another number, another packing. The other methods draw no random numbers");
+  add_method_options(app, options, a.no_inner);
 }
 
 void add_output_options(CLI::App& app, PackArguments& a) {
@@ -198,6 +176,32 @@ Status resolve_size(PackArguments& a) {
 }
 
 }  // namespace
+
+void add_method_options(CLI::App& app, PackOptions& options, bool& no_inner) {
+  add_number(
+      app, "--rotations", options.rotations, {1, 3600, "angles"},
+      "Angles each chart is tried at (lprm02 has one of its own). guided: in best fit; when it "
+      "separates charts it has more of its own");
+  add_choice(app, "--rotation-base", options.rotation_base, kRotationBases,
+             "Angles counted from the chart's input axes (the paper), or from its smallest box");
+  add_number(
+      app, "--grid", options.grid, {0, 8192, "cells"},
+      "Cells along the longer side of the search grid; finer is slower and, as a rule, "
+      "denser. 0: guided, a cell to a texel up to 2048, or 4096 for more than 200 charts; the "
+      "others 256, more for many charts");
+  add_choice(app, "--coverage", options.coverage, kCoverages,
+             "When a cell belongs to a chart: conservative (safe), or center (the paper's; charts "
+             "may overlap by part of a cell)");
+  add_number(app, "--scale-start", options.start_upper, {0.1, 1},
+             "Upper end of the scale search at its start, in parts of the scale that would fill "
+             "the atlas; the paper prints 0.9");
+  add_number(app, "--lambda", options.lambda, {0, 1e6},
+             "modulo: how much worse placements count that lie on top of the packing");
+  app.add_flag("--no-inner", no_inner, "modulo: leave out the four inner strategies");
+  app.add_flag("--all-sides", options.all_sides, "zsgs04: try all four sides for every chart");
+  add_number(app, "--seed", options.seed, {0, 4294967295},
+             "guided: another number, another packing. The other methods draw no random numbers");
+}
 
 void add_pack_options(CLI::App& app, PackArguments& a, const char* input_help) {
   app.add_option("input", a.input, input_help)->required();

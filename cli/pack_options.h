@@ -38,6 +38,9 @@ struct PackArguments {
   }
 };
 
+/// How charts are tried: angles, grid and what single methods have.
+void add_method_options(CLI::App& app, PackOptions& options, bool& no_inner);
+
 /// All that do not depend on where the charts come from.
 void add_pack_options(CLI::App& app, PackArguments& arguments, const char* input_help);
 

@@ -10,16 +10,12 @@
 
 #include "io/file.h"
 #include "packing_run.h"
+#include "unwrap_report.h"
 #include "wrapatlas/atlas.h"
 #include "wrapatlas/view.h"
 
 namespace wrapatlas::cli {
 namespace {
-
-inline constexpr Named<StretchMeasure> kStretches[] = {{"l2", StretchMeasure::l2},
-                                                       {"linf", StretchMeasure::linf}};
-inline constexpr Named<FlattenMethod> kFlattenMethods[] = {{"labf", FlattenMethod::labf},
-                                                           {"lscm", FlattenMethod::lscm}};
 
 enum class Stage { charts, flat, packed };
 inline constexpr Named<Stage> kStages[] = {
@@ -33,73 +29,6 @@ struct UnwrapArguments {
   Stage last = Stage::packed;
   std::string view, heat;  ///< pictures
 };
-
-/// What was mended on the way in.
-void print_repairs(const PackArguments& arguments, const SurfaceReport& surface) {
-  if (arguments.quiet) return;
-  const auto note = [&](std::uint32_t count, const char* noun, const char* what) {
-    if (count > 0) say("{}: note: {} {}\n", arguments.input, quantity(count, noun), what);
-  };
-  note(surface.folded_faces, "face",
-       "using a point twice: no part of the surface, each has a chart of its own");
-  note(surface.flat_faces, "face", "of no area");
-  note(surface.duplicate_faces, "face", "lying on another face of the same points");
-  note(surface.turned_faces, "face",
-       "wound against the rest of the surface: unwrapped as if turned, the winding stays");
-  note(surface.one_sided_edges, "edge", "where the surface has one side only: cut there");
-  note(surface.crowded_edges, "edge",
-       "of more than two faces: the flattest pairs go on in each other");
-  note(surface.shared_points, "point", "where parts of the surface touch: cut there");
-}
-
-struct Worst {
-  double l2 = 0, linf = 0;
-  std::size_t bad = 0;
-};
-
-Worst worst_of(const Unwrapping& unwrapping) {
-  Worst worst;
-  for (const UnwrappedChart& chart : unwrapping.charts) {
-    worst.l2 = std::max(worst.l2, chart.distortion.l2);
-    worst.linf = std::max(worst.linf, chart.distortion.linf);
-    worst.bad += chart.is_good ? 0 : 1;
-  }
-  return worst;
-}
-
-Json unwrap_json(const UnwrapArguments& arguments, const Unwrapping& unwrapping) {
-  const Worst worst = worst_of(unwrapping);
-  const SurfaceReport& surface = unwrapping.surface;
-  Json charts = Json::array();
-  for (const UnwrappedChart& chart : unwrapping.charts) {
-    charts.push_back({{"faces", chart.faces},
-                      {"area", chart.area},
-                      {"border_length", chart.border_length},
-                      {"l2", chart.distortion.l2},
-                      {"linf", chart.distortion.linf},
-                      {"angle", chart.distortion.angle},
-                      {"lscm", chart.used_lscm}});
-  }
-  return {{"faces", unwrapping.face_chart.size()},
-          {"max_stretch", arguments.options.max_stretch},
-          {"stretch_measure", name_of(kStretches, arguments.options.stretch)},
-          {"flatten", name_of(kFlattenMethods, arguments.options.flatten.method)},
-          {"iterations", arguments.options.flatten.iterations},
-          {"stretch", {{"l2_max", worst.l2}, {"linf_max", worst.linf}}},
-          {"charts_beyond_limits", worst.bad},
-          {"degenerate_faces", surface.folded_faces + surface.flat_faces},
-          {"repairs",
-           {{"folded_faces", surface.folded_faces},
-            {"flat_faces", surface.flat_faces},
-            {"duplicate_faces", surface.duplicate_faces},
-            {"turned_faces", surface.turned_faces},
-            {"one_sided_edges", surface.one_sided_edges},
-            {"crowded_edges", surface.crowded_edges},
-            {"shared_points", surface.shared_points}}},
-          {"components", surface.components},
-          {"border_edges", surface.border_edges},
-          {"unwrapped", charts}};
-}
 
 Result<Unwrapping> unwrap_with_progress(UnwrapArguments& arguments, const Mesh& mesh) {
   catch_interrupts();
@@ -118,6 +47,7 @@ Result<Unwrapping> unwrap_with_progress(UnwrapArguments& arguments, const Mesh& 
   return unwrapping;
 }
 
+/// `mesh` has the UVs that the charts have.
 Status save_view(const UnwrapArguments& arguments, const Mesh& mesh,
                  std::span<const std::uint32_t> face_chart) {
   if (arguments.view.empty()) return Done{};
@@ -131,7 +61,11 @@ Status save_view(const UnwrapArguments& arguments, const Mesh& mesh,
 /// not even that, each as an object of its own.
 int write_unpacked(const UnwrapArguments& arguments, Model& model, Unwrapping& unwrapping,
                    double start, PackOutcome& outcome) {
+  OutputTransaction outputs;
   Mesh& mesh = unwrapping.mesh;
+  if (const Status ok = save_view(arguments, mesh, unwrapping.face_chart); !ok) {
+    return report_error(ok.error());
+  }
   if (arguments.last == Stage::charts) {
     model.source.reset();  // a new file: the old one's objects are others
     model.mesh.face_object = unwrapping.face_chart;
@@ -142,13 +76,9 @@ int write_unpacked(const UnwrapArguments& arguments, Model& model, Unwrapping& u
   for (const Vec2 uv : mesh.texcoords) box.add(uv);
   const double side = std::max(box.size().x, box.size().y);
   for (Vec2& uv : mesh.texcoords) uv = (side > 0 ? 1 / side : 1) * (uv - box.min);
-  OutputTransaction outputs;
   const PackArguments& pack = arguments.pack;
   const double write_start = seconds_now();
   if (const Status ok = save_model(model, keep_texcoords(mesh), pack.output); !ok) {
-    return report_error(ok.error());
-  }
-  if (const Status ok = save_view(arguments, model.mesh, unwrapping.face_chart); !ok) {
     return report_error(ok.error());
   }
   outcome.write = seconds_now() - write_start;
@@ -230,15 +160,15 @@ int run(const CLI::App& app, UnwrapArguments& arguments) {
   if (model->v_points_down) {
     for (Vec2& uv : unwrapping->mesh.texcoords) uv.y = -uv.y;
   }
-  print_repairs(pack, unwrapping->surface);
   if (!pack.quiet) {
+    print_unwrap_notes(pack.input, arguments.options, *unwrapping);
     const Worst worst = worst_of(*unwrapping);
     say("{}: {} in {}, L2 stretch {:.2f} at most, L-infinity {:.1f}, {:.2f} s\n", pack.input,
         quantity(unwrapping->face_chart.size(), "face"),
         quantity(unwrapping->charts.size(), "chart"), worst.l2, worst.linf,
         unwrapping->surface_seconds + unwrapping->segment_seconds);
   }
-  outcome.more = unwrap_json(arguments, *unwrapping);
+  outcome.more = unwrap_json(arguments.options, *unwrapping);
   outcome.stages = {{"repair", unwrapping->surface_seconds},
                     {"segment", unwrapping->segment_seconds},
                     {"flatten", unwrapping->flatten_seconds}};
@@ -264,14 +194,16 @@ Command make_unwrap_command(CLI::App& parser) {
   add_choice(app, "--stretch", options.stretch, kStretches,
              "l2: the root mean square over a chart (Sander et al. 2001), 1 for an isometry; linf: "
              "the largest at any place of it");
-  add_number(app, "--max-charts", options.max_charts, {0, 1e9, "charts"},
-             "Join charts beyond --max-stretch until there are no more than this; parts of the "
-             "surface that do not touch stay apart. 0: no limit");
+  add_number(
+      app, "--max-charts", options.max_charts, {0, 1e9, "charts"},
+      "Join charts beyond --max-stretch until there are no more than this; parts of the "
+      "surface that do not touch stay apart, and unions of over 60,000 triangles or that overlap "
+      "themselves are not made. 0: no limit");
   add_choice(
       app, "--flatten", options.flatten.method, kFlattenMethods,
       "labf: linear angle based flattening (Zayer et al. 2007); lscm: least squares conformal "
       "maps");
-  add_number(app, "--iterations", options.flatten.iterations, {1, 20},
+  add_number(app, "--iterations", options.flatten.iterations, {1, kMostIterations},
              "labf: linear solves, each from the angles of the one before; the paper has 1");
   add_number(app, "--hard-edges", arguments->hard_edges, {0, 180, "degrees"},
              "Cut along edges whose faces differ by more than this");

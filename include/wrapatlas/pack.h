@@ -130,6 +130,14 @@ struct Packing {
 /// from guided only if `moves` is not 0, or `time` is: else it goes by the clock.
 Result<Packing> pack(std::span<const Chart> charts, const PackOptions& options);
 
+/// What pack() finds on each shape of texture that options.aspect asks for, the most square first;
+/// pack() gives the densest of them. Where none was found there are no placements, and the scale is
+/// 0. Charts are rasterised once for all shapes: the seconds of it count for the shape that first
+/// needed them. Errors: those of pack() but no_packing; usage for guided, whose shapes share one
+/// search.
+Result<std::vector<Packing>> pack_each_shape(std::span<const Chart> charts,
+                                             const PackOptions& options);
+
 /// Efficiency without padding on the same layout: all charts are enlarged by one factor k >= 1,
 /// each about the centre of its placed box and at its angle, until two touch, or one its own image
 /// under the wrap or a side that does not wrap; the value is efficiency * k^2. So what is above

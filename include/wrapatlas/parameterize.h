@@ -16,9 +16,11 @@ enum class FlattenMethod {
   lscm,  ///< least squares conformal maps on the mesh's own angles (Lévy et al. 2002)
 };
 
+inline constexpr int kMostIterations = 20;
+
 struct FlattenOptions {
   FlattenMethod method = FlattenMethod::labf;
-  int iterations = 2;  ///< linear solves of labf, 1 to 20; 1 is the publication's
+  int iterations = 2;  ///< linear solves of labf, 1 to kMostIterations; 1 is the publication's
 };
 
 struct Flattening {

@@ -50,6 +50,9 @@ Status save_atlas_picture(const std::filesystem::path& path, std::span<const Cha
 /// Images in a row, their middles on one line, `gap` pixels of ground between and around them.
 Image side_by_side(std::span<const Image> images, int gap);
 
+/// The bytes of a PNG file. Error: output (an image without pixels).
+Result<std::string> encode_png(const Image& image);
+
 /// Errors: output (an image without pixels, or a file that cannot be written).
 Status save_png(const std::filesystem::path& path, const Image& image);
 

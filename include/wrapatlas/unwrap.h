@@ -26,13 +26,15 @@ struct UnwrapProgress {
 struct UnwrapOptions {
   double max_stretch = 2;  ///< of a chart, >= 1
   StretchMeasure stretch = StretchMeasure::l2;
-  /// If > 0: charts go on being joined beyond max_stretch until there are no more than this. Pieces
-  /// of surface that do not touch cannot be joined.
+  /// If > 0: charts go on being joined beyond max_stretch until there are no more than this, or
+  /// none can be: pieces of surface that do not touch, unions of more than 60,000 triangles, those
+  /// that overlap themselves when they are flat.
   std::uint32_t max_charts = 0;
   SurfaceOptions surface;
   FlattenOptions flatten;
   int threads = 0;  ///< 0: as many as the machine has; the result does not depend on it
-  std::function<bool(const UnwrapProgress&)> progress;  ///< false: stop
+  /// Called now and then from any thread, one call at a time; false: stop.
+  std::function<bool(const UnwrapProgress&)> progress;
 };
 
 struct UnwrappedChart {
@@ -45,22 +47,22 @@ struct UnwrappedChart {
 };
 
 struct Unwrapping {
-  /// The mesh given, with UVs at each corner: in units of its positions, each chart with the area
-  /// it has in space, no two at the same place.
+  /// The mesh given, with UVs at each corner: in units of its positions, each chart with about the
+  /// area it has in space, no two at the same place.
   Mesh mesh;
   std::vector<std::uint32_t> face_chart;  ///< per face of the mesh
   std::vector<double> face_stretch;       ///< per face of the mesh: triangle_stretch; 0: folded
   std::vector<UnwrappedChart> charts;     ///< faces that are no part of the surface come last
   SurfaceReport surface;
   double surface_seconds = 0, segment_seconds = 0,
-         flatten_seconds = 0;  ///< the last within the 2nd
+         flatten_seconds = 0;  ///< the last is within the second, and summed over threads
 };
 
 /// Cuts the mesh into charts (Sander et al. 2003, with splitting and merging on stretch), flattens
 /// each (Zayer, Lévy & Seidel 2007) until none is distorted beyond max_stretch, overlaps itself or
 /// has a flipped triangle. The same bits for any number of threads. The mesh must pass
 /// validate_mesh; UVs it has are not looked at but for SurfaceOptions::uv_seams. Errors: usage (bad
-/// options), input (no faces), interrupted.
+/// options), input (no faces, or none of any area), interrupted.
 Result<Unwrapping> unwrap(const Mesh& mesh, const UnwrapOptions& options = {});
 
 }  // namespace wrapatlas

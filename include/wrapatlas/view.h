@@ -31,8 +31,8 @@ struct SeamEdge {
 std::vector<SeamEdge> seam_edges(const Mesh& mesh, std::span<const std::uint32_t> face_chart);
 
 struct ViewOptions {
-  int size = 768;  ///< pixels of each view, square; 16 to 4096
-  int views = 2;   ///< side by side, from around the model; 1 to 8
+  int size = 768;                   ///< pixels of each view, square; 16 to 4096
+  int views = 2;                    ///< side by side, from around the model; 1 to 8
   std::span<const SeamEdge> seams;  ///< drawn as dark lines where they are not hidden
 };
 

@@ -6,7 +6,7 @@
 
 #include "charts/hull.h"
 #include "guided/joiner.h"
-#include "pack/parallel.h"
+#include "threads/parallel.h"
 
 namespace wrapatlas {
 namespace {

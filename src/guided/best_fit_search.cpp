@@ -7,7 +7,7 @@
 
 #include "guided/best_fit.h"
 #include "guided/page_fill.h"
-#include "pack/parallel.h"
+#include "threads/parallel.h"
 
 namespace wrapatlas {
 namespace {

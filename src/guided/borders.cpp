@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "pack/parallel.h"
+#include "threads/parallel.h"
 
 namespace wrapatlas {
 namespace {

@@ -13,7 +13,7 @@
 #include "guided/record.h"
 #include "guided/refine.h"
 #include "pack/aspects.h"
-#include "pack/parallel.h"
+#include "threads/parallel.h"
 
 namespace wrapatlas {
 namespace {

@@ -6,7 +6,7 @@
 #include <numeric>
 
 #include "pack/aspects.h"
-#include "pack/parallel.h"
+#include "threads/parallel.h"
 
 namespace wrapatlas {
 namespace {

@@ -11,7 +11,7 @@
 #include "guided/best_fit_search.h"
 #include "guided/page_fill.h"
 #include "guided/record.h"
-#include "pack/parallel.h"
+#include "threads/parallel.h"
 
 namespace wrapatlas {
 namespace {

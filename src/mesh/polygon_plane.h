@@ -1,6 +1,7 @@
 // The plane of a polygon in space.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include "wrapatlas/geometry.h"
@@ -13,15 +14,22 @@ inline Vec3 unit(const Vec3& v) {
   return size > 0 ? (1 / size) * v : Vec3{};
 }
 
-/// Newell's normal: its length is twice the polygon's area. `point(i)` for i in [0, count).
+/// Of its longest side's square: what has no more area is a line but for rounding.
+inline constexpr double kNoArea = 1e-12;
+
+/// Newell's normal: its length is twice the polygon's area; zero if that is none but for rounding.
+/// `point(i)` for i in [0, count).
 template <typename Point>
 Vec3 newell_normal(std::uint32_t count, Point&& point) {
   Vec3 sum;
+  double longest2 = 0;
   const Vec3 origin = point(0);
   for (std::uint32_t i = 1; i + 1 < count; ++i) {
-    sum = sum + cross(point(i) - origin, point(i + 1) - origin);
+    const Vec3 a = point(i) - origin, b = point(i + 1) - origin;
+    sum = sum + cross(a, b);
+    longest2 = std::max({longest2, dot(a, a), dot(b, b)});
   }
-  return sum;
+  return length(sum) > kNoArea * longest2 ? sum : Vec3{};
 }
 
 inline Vec3 polygon_normal(const Mesh& mesh, std::uint32_t face) {

@@ -166,7 +166,7 @@ class SurfaceBuilder {
             reached[other] = true;
             is_turned_[other] = turn;
             component.push_back(other);
-          } else if (is_turned_[other] != turn || other == face) {
+          } else if (is_turned_[other] != turn) {
             twin_[twin_[c]] = kNone;
             twin_[c] = kNone;
             ++surface_.report.one_sided_edges;

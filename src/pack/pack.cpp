@@ -15,10 +15,10 @@
 #include "charts/hull.h"
 #include "guided/guided.h"
 #include "pack/aspects.h"
-#include "pack/parallel.h"
 #include "pack/placer.h"
 #include "pack/raster_cache.h"
 #include "pack/scale_search.h"
+#include "threads/parallel.h"
 
 namespace wrapatlas {
 namespace {
@@ -168,7 +168,8 @@ struct Search {
   std::vector<CellPlacement> placements;
   std::shared_ptr<ScaleRasters> rasters;
   int packings = 0;
-  double seconds = 0;
+  double seconds = 0;         ///< all of it
+  double raster_seconds = 0;  ///< of it, until rasters were there
 };
 
 class Packer {
@@ -197,7 +198,7 @@ class Packer {
           auto rasters = rasters_at(search.frame, factor);
           ++search.packings;
           const bool success =
-              !hopeless(search.frame, factor) && attempt(search.frame, *rasters, meter, placements);
+              !hopeless(search.frame, factor) && attempt(search, *rasters, meter, placements);
           if (success && factor > search.factor) {
             search.factor = factor;
             search.rasters = std::move(rasters);
@@ -219,8 +220,7 @@ class Packer {
 
  private:
   [[nodiscard]] std::shared_ptr<ScaleRasters> rasters_at(const Frame& frame, double factor) const {
-    return cache_.at(raster_scale_on(frame, scale(factor), options_.coverage),
-                     kLongestInDomains * std::max(frame.width, frame.height));
+    return cache_.at(raster_scale_on(frame, scale(factor), options_.coverage));
   }
 
   /// Each grown chart covers at least its area and a disc of half the padding.
@@ -231,18 +231,24 @@ class Packer {
     return charts + disc * static_cast<double>(by_area_.size()) > frame.texels();
   }
 
-  bool attempt(const Frame& frame, ScaleRasters& rasters, ProgressMeter& meter,
+  bool attempt(Search& search, ScaleRasters& rasters, ProgressMeter& meter,
                std::vector<CellPlacement>& placements) const {
+    const Frame& frame = search.frame;
     PlaceTask task;
     task.width = frame.width;
     task.height = frame.height;
     task.wrap = options_.wrap;
     task.chart_count = by_area_.size();
-    task.rasters = [&rasters](std::size_t chart) { return rasters.of(chart); };
+    task.rasters = [&](std::size_t chart) {
+      const auto start = Clock::now();
+      const auto of_chart = rasters.of(chart);
+      search.raster_seconds += seconds_since(start);
+      return of_chart;
+    };
     task.by_area = by_area_;
     const Vec2 cells = rasters.scale().cells_per_unit;
     const double reach = 2 * (radius_ * std::max(cells.x, cells.y) + frame.growth) + 2;
-    task.reach = static_cast<int>(std::min<double>(reach, rasters.max_side()));
+    task.reach = static_cast<int>(std::min<double>(reach, cache_.max_side()));
     task.lambda = options_.lambda;
     task.inner = options_.inner;
     task.all_sides = options_.all_sides;
@@ -268,6 +274,7 @@ int choose_grid(const PackOptions& options, std::size_t charts) {
   return std::clamp(static_cast<int>(cells), 256, finest);
 }
 
+/// Without placements if the search found none.
 Packing to_packing(const Search& search, const Packer& packer, const PackOptions& options) {
   const Frame& frame = search.frame;
   std::vector<Placement> placements;
@@ -278,13 +285,17 @@ Packing to_packing(const Search& search, const Packer& packer, const PackOptions
     covered += raster.cells;
     placements.push_back(place_on(frame, raster.angle, raster.offset, cell.x, cell.y));
   }
-  return make_packing(frame, options.wrap, packer.scale(search.factor), packer.area(),
-                      std::move(placements), covered);
+  Packing packing = make_packing(frame, options.wrap, packer.scale(search.factor), packer.area(),
+                                 std::move(placements), covered);
+  packing.packings = search.packings;
+  packing.raster_seconds = search.raster_seconds;
+  packing.place_seconds = search.seconds - search.raster_seconds;
+  return packing;
 }
 
-/// pack() by a method that places all charts at one scale after another.
-Result<Packing> pack_by_scales(std::span<const Chart> charts, const PackOptions& options,
-                               double area) {
+/// Per shape of texture what a method finds that places all charts at one scale after another.
+Result<std::vector<Packing>> search_shapes(std::span<const Chart> charts,
+                                           const PackOptions& options, double area) {
   const int longest = std::max(options.width, options.height);
   auto frames = make_frames(options, double(longest) / choose_grid(options, charts.size()));
   if (!frames) return frames.error();
@@ -294,9 +305,14 @@ Result<Packing> pack_by_scales(std::span<const Chart> charts, const PackOptions&
     shapes.push_back(make_raster_shape(chart));
     angles.push_back(chart_angles(chart, options));
   }
+  int max_side = 0;
+  for (const Frame& frame : *frames) {
+    max_side =
+        std::max({max_side, kLongestInDomains * frame.width, kLongestInDomains * frame.height});
+  }
   // Ratios search the same scales at about the same time; one search alone meets none twice.
   const std::size_t scales_kept = frames->size() > 1 ? 12 : 1;
-  RasterCache cache(std::move(shapes), std::move(angles), scales_kept);
+  RasterCache cache(std::move(shapes), std::move(angles), max_side, scales_kept);
   const double full_scale = std::sqrt(double(options.width) * options.height / area);
   const Packer packer(charts, options, full_scale, cache);
   ProgressMeter meter(options, frames->size());
@@ -304,13 +320,24 @@ Result<Packing> pack_by_scales(std::span<const Chart> charts, const PackOptions&
   for (std::size_t i = 0; i < searches.size(); ++i) searches[i].frame = (*frames)[i];
   parallel_for(searches.size(), thread_count(options.threads),
                [&](std::size_t i) { packer.run(searches[i], meter); });
+  std::vector<Packing> packings;
+  for (const Search& search : searches) {
+    packings.push_back(to_packing(search, packer, options));
+    packings.back().interrupted = meter.stopped();
+  }
+  return packings;
+}
 
-  const auto best =
-      std::max_element(searches.begin(), searches.end(), [&](const Search& a, const Search& b) {
-        return packer.efficiency(a) < packer.efficiency(b);
-      });
-  if (best->factor == 0) {
-    if (meter.stopped()) {
+/// The densest of them.
+Result<Packing> pack_by_scales(std::span<const Chart> charts, const PackOptions& options,
+                               double area) {
+  const auto all = search_shapes(charts, options, area);
+  if (!all) return all.error();
+  Packing best = *std::max_element(
+      all->begin(), all->end(),
+      [](const Packing& a, const Packing& b) { return a.efficiency < b.efficiency; });
+  if (best.placements.empty()) {
+    if (best.interrupted) {
       return Error{ErrorKind::interrupted, "", "stopped before a packing was found", ""};
     }
     return Error{ErrorKind::no_packing, "",
@@ -318,20 +345,18 @@ Result<Packing> pack_by_scales(std::span<const Chart> charts, const PackOptions&
                              charts.size(), options.width, options.height),
                  "raise --resolution, or lower --padding and --margin"};
   }
-  Packing packing = to_packing(*best, packer, options);
-  packing.interrupted = meter.stopped();
-  packing.raster_seconds = cache.seconds();
-  for (const Search& search : searches) {
-    packing.packings += search.packings;
-    packing.place_seconds += search.seconds;
+  best.packings = 0;
+  best.raster_seconds = best.place_seconds = 0;
+  for (const Packing& packing : *all) {
+    best.packings += packing.packings;
+    best.raster_seconds += packing.raster_seconds;
+    best.place_seconds += packing.place_seconds;
   }
-  packing.place_seconds = std::max(0.0, packing.place_seconds - packing.raster_seconds);
-  return packing;
+  return best;
 }
 
-}  // namespace
-
-Result<Packing> pack(std::span<const Chart> charts, const PackOptions& options) {
+/// What pack() and pack_each_shape() ask of their arguments.
+Result<double> checked_area(std::span<const Chart> charts, const PackOptions& options) {
   if (const Status ok = check_options(options); !ok) return ok.error();
   if (charts.empty()) return usage("there are no charts to pack", "give at least one");
   double area = 0;
@@ -340,8 +365,26 @@ Result<Packing> pack(std::span<const Chart> charts, const PackOptions& options) 
     return Error{ErrorKind::input, "charts", "they have no area, or none that is finite",
                  "unwrap the mesh again: its UVs are collapsed"};
   }
+  return area;
+}
+
+}  // namespace
+
+Result<Packing> pack(std::span<const Chart> charts, const PackOptions& options) {
+  const auto area = checked_area(charts, options);
+  if (!area) return area.error();
   if (options.method == Method::guided) return pack_guided(charts, options, pack_by_scales);
-  return pack_by_scales(charts, options, area);
+  return pack_by_scales(charts, options, *area);
+}
+
+Result<std::vector<Packing>> pack_each_shape(std::span<const Chart> charts,
+                                             const PackOptions& options) {
+  const auto area = checked_area(charts, options);
+  if (!area) return area.error();
+  if (options.method == Method::guided) {
+    return usage("guided searches shapes together, not each", "use another method");
+  }
+  return search_shapes(charts, options, *area);
 }
 
 }  // namespace wrapatlas

@@ -1,7 +1,6 @@
 #include "pack/raster_cache.h"
 
 #include <algorithm>
-#include <chrono>
 
 namespace wrapatlas {
 
@@ -12,13 +11,7 @@ ScaleRasters::ScaleRasters(std::span<const RasterShape> shapes,
 
 std::span<const ChartRaster> ScaleRasters::of(std::size_t chart) {
   Slot& slot = slots_[chart];
-  std::call_once(slot.once, [&] {
-    const auto start = std::chrono::steady_clock::now();
-    slot.rasters = rasters_at(angles_[chart], shapes_[chart]);
-    nanoseconds_ += std::chrono::duration_cast<std::chrono::nanoseconds>(
-                        std::chrono::steady_clock::now() - start)
-                        .count();
-  });
+  std::call_once(slot.once, [&] { slot.rasters = rasters_at(angles_[chart], shapes_[chart]); });
   return slot.rasters;
 }
 
@@ -37,17 +30,17 @@ std::vector<ChartRaster> ScaleRasters::rasters_at(const std::vector<double>& ang
   return rasters;
 }
 
-double ScaleRasters::seconds() const { return static_cast<double>(nanoseconds_.load()) * 1e-9; }
-
 RasterCache::RasterCache(std::vector<RasterShape> shapes, std::vector<std::vector<double>> angles,
-                         std::size_t scales_kept)
-    : shapes_(std::move(shapes)), angles_(std::move(angles)), scales_kept_(scales_kept) {}
+                         int max_side, std::size_t scales_kept)
+    : shapes_(std::move(shapes)),
+      angles_(std::move(angles)),
+      max_side_(max_side),
+      scales_kept_(scales_kept) {}
 
-std::shared_ptr<ScaleRasters> RasterCache::at(const RasterScale& scale, int max_side) {
+std::shared_ptr<ScaleRasters> RasterCache::at(const RasterScale& scale) {
   const auto same = [&](const std::shared_ptr<ScaleRasters>& entry) {
     return entry->scale().cells_per_unit == scale.cells_per_unit &&
-           entry->scale().growth == scale.growth && entry->scale().coverage == scale.coverage &&
-           entry->max_side() == max_side;
+           entry->scale().growth == scale.growth && entry->scale().coverage == scale.coverage;
   };
   const std::lock_guard lock(mutex_);
   const auto found = std::find_if(recent_.begin(), recent_.end(), same);
@@ -55,19 +48,9 @@ std::shared_ptr<ScaleRasters> RasterCache::at(const RasterScale& scale, int max_
     recent_.splice(recent_.begin(), recent_, found);
     return recent_.front();
   }
-  recent_.push_front(std::make_shared<ScaleRasters>(shapes_, angles_, scale, max_side));
-  if (recent_.size() > scales_kept_) {
-    dropped_seconds_ += recent_.back()->seconds();
-    recent_.pop_back();
-  }
+  recent_.push_front(std::make_shared<ScaleRasters>(shapes_, angles_, scale, max_side_));
+  if (recent_.size() > scales_kept_) recent_.pop_back();
   return recent_.front();
-}
-
-double RasterCache::seconds() {
-  const std::lock_guard lock(mutex_);
-  double sum = dropped_seconds_;
-  for (const auto& entry : recent_) sum += entry->seconds();
-  return sum;
 }
 
 }  // namespace wrapatlas

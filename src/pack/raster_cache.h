@@ -1,7 +1,6 @@
 // Rasters of all charts at all their angles, made once per scale and shared between attempts.
 #pragma once
 
-#include <atomic>
 #include <list>
 #include <memory>
 #include <mutex>
@@ -20,9 +19,6 @@ class ScaleRasters {
 
   [[nodiscard]] std::span<const ChartRaster> of(std::size_t chart);
   [[nodiscard]] const RasterScale& scale() const { return scale_; }
-  [[nodiscard]] int max_side() const { return max_side_; }
-  /// Time spent rasterising, summed over threads.
-  [[nodiscard]] double seconds() const;
 
  private:
   struct Slot {
@@ -37,26 +33,26 @@ class ScaleRasters {
   RasterScale scale_;
   int max_side_;
   std::vector<Slot> slots_;
-  std::atomic<std::int64_t> nanoseconds_{0};
 };
 
 /// Keeps the rasters of the scales used last. Aspect ratios of one area search the same scales, so
 /// they find them here. Thread-safe.
 class RasterCache {
  public:
+  /// No raster is longer than `max_side` cells.
   RasterCache(std::vector<RasterShape> shapes, std::vector<std::vector<double>> angles,
-              std::size_t scales_kept);
+              int max_side, std::size_t scales_kept);
 
-  std::shared_ptr<ScaleRasters> at(const RasterScale& scale, int max_side);
-  [[nodiscard]] double seconds();
+  std::shared_ptr<ScaleRasters> at(const RasterScale& scale);
+  [[nodiscard]] int max_side() const { return max_side_; }
 
  private:
   std::vector<RasterShape> shapes_;
   std::vector<std::vector<double>> angles_;
+  int max_side_;
   std::size_t scales_kept_;
   std::mutex mutex_;
   std::list<std::shared_ptr<ScaleRasters>> recent_;  ///< most recently used first
-  double dropped_seconds_ = 0;
 };
 
 }  // namespace wrapatlas

@@ -4,15 +4,11 @@
 #include <cmath>
 #include <limits>
 
+#include "mesh/polygon_plane.h"
 #include "wrapatlas/parameterize.h"
 
 namespace wrapatlas {
 namespace {
-
-/// A triangle in space whose doubled area is this share of its longest edge squared has none, but
-/// for rounding; and a triangle in the plane that covers this share of the chart's area covers
-/// none.
-constexpr double kNoArea = 1e-12;
 
 /// A triangle in space, its image, and the map from there to here.
 struct Pair {

@@ -13,8 +13,6 @@
 namespace wrapatlas {
 namespace {
 
-constexpr int kMostIterations = 20;
-
 /// To the area in space. False if there is nothing to scale.
 bool scale_to_area(const Disc& disc, std::vector<Vec2>& uv) {
   double area = 0;

@@ -9,8 +9,7 @@
 // What differs:
 // - The publication solves A A^T y = b for all rows. The block of A A^T for the triangles is
 //   diagonal, so we eliminate it and factor what is left, two rows for each inner point.
-// - We repeat from the angles found, which makes the error of the wheels, 1e-7 to 1e-2 after one
-//   solve, fall quadratically.
+// - We repeat from the angles found, which makes the error of the wheels fall quadratically.
 // - Small angles are taken as they are. Clamped to 3 degrees and more, as is usual, flat charts of
 //   long triangles would not stay as they are. Only triangles of no area are clamped.
 #include "parameterize/labf.h"

@@ -22,8 +22,11 @@ class Untangler {
       for (const std::uint32_t t : flipped) {
         points.insert(points.end(), triangles_[t].begin(), triangles_[t].end());
       }
-      if (round > 3) widen(points);
       sort_out(points);
+      if (round > 3) {
+        widen(points);
+        sort_out(points);
+      }
       bool moved = false;
       for (const std::uint32_t p : points) moved = move(p) || moved;
       if (!moved && round > 3) break;

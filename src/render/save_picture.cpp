@@ -11,21 +11,21 @@
 namespace wrapatlas {
 namespace {
 
-Error png_error(const std::filesystem::path& path, std::string what) {
-  return {ErrorKind::output, path.string(), std::move(what), "draw it at another size"};
+Error png_error(std::string what) {
+  return {ErrorKind::output, "", std::move(what), "draw it at another size"};
 }
 
 }  // namespace
 
-Status save_png(const std::filesystem::path& path, const Image& image) {
+Result<std::string> encode_png(const Image& image) {
   const std::size_t expected =
       std::size_t{3} * std::max(0, image.width) * std::max(0, image.height);
   if (expected == 0 || image.rgb.size() != expected) {
-    return png_error(path, "the image has no pixels, or not as many as its size says");
+    return png_error("the image has no pixels, or not as many as its size says");
   }
   const std::unique_ptr<spng_ctx, decltype(&spng_ctx_free)> context(spng_ctx_new(SPNG_CTX_ENCODER),
                                                                     &spng_ctx_free);
-  if (!context) return png_error(path, "out of memory");
+  if (!context) return png_error("out of memory");
   spng_ihdr header{};
   header.width = static_cast<std::uint32_t>(image.width);
   header.height = static_cast<std::uint32_t>(image.height);
@@ -40,8 +40,16 @@ Status save_png(const std::filesystem::path& path, const Image& image) {
   std::size_t size = 0;
   const std::unique_ptr<void, decltype(&std::free)> bytes(
       failure == 0 ? spng_get_png_buffer(context.get(), &size, &failure) : nullptr, &std::free);
-  if (!bytes) return png_error(path, std::string("cannot encode PNG: ") + spng_strerror(failure));
-  return write_file(path, {static_cast<const char*>(bytes.get()), size});
+  if (!bytes) return png_error(std::string("cannot encode PNG: ") + spng_strerror(failure));
+  return std::string(static_cast<const char*>(bytes.get()), size);
+}
+
+Status save_png(const std::filesystem::path& path, const Image& image) {
+  const auto bytes = encode_png(image);
+  if (bytes) return write_file(path, *bytes);
+  Error error = bytes.error();
+  error.where = path.string();
+  return error;
 }
 
 namespace {

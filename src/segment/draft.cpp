@@ -17,7 +17,7 @@ constexpr double kShrunk = 0.25;
 constexpr int kMostSeamRounds = 2;
 
 /// More than this is split without a look: flattening it takes too long.
-constexpr std::size_t kMostTriangles = 60000;
+constexpr std::size_t kMostTried = 60000;
 
 std::vector<std::uint32_t> merged(const std::vector<std::uint32_t>& a,
                                   const std::vector<std::uint32_t>& b) {
@@ -41,28 +41,35 @@ void flatten_draft(Draft& draft, const UnwrapOptions& options) {
   draft.distortion = measure_distortion(draft.disc.points, draft.uv, draft.disc.triangles);
 }
 
-/// A single face needs no solver: it is seen along its normal. Of no area it is a dot.
-void lay_in_plane(const FaceShapes& shapes, Draft& draft) {
-  const Plane plane(shapes.normal[draft.faces[0]]);
-  draft.uv.assign(draft.disc.points.size(), {});
-  draft.is_good = true;
-  if (shapes.area[draft.faces[0]] == 0) return;
-  double flat = 0, space = 0;
-  for (std::size_t p = 0; p < draft.uv.size(); ++p)
-    draft.uv[p] = plane.project(draft.disc.points[p]);
-  for (const auto& [a, b, c] : draft.disc.triangles) {
-    flat += signed_area2(draft.uv[a], draft.uv[b], draft.uv[c]);
-    space += length(cross(draft.disc.points[b] - draft.disc.points[a],
-                          draft.disc.points[c] - draft.disc.points[a]));
-  }
-  for (Vec2& p : draft.uv) p = std::sqrt(space / flat) * p;
-  draft.distortion = measure_distortion(draft.disc.points, draft.uv, draft.disc.triangles);
+bool is_stretched(const Draft& draft, const UnwrapOptions& options) {
+  constexpr double kRounding = 1e-9;  // a flat chart is good where no stretch is allowed
+  return stretch_of(draft.distortion, options) > options.max_stretch * (1 + kRounding);
 }
 
 bool within_limits(const Draft& draft, const UnwrapOptions& options) {
-  return !draft.uv.empty() && draft.distortion.flipped == 0 &&
-         stretch_of(draft.distortion, options) <= options.max_stretch &&
+  return !draft.uv.empty() && draft.distortion.flipped == 0 && !is_stretched(draft, options) &&
          !border_crosses(draft.uv, draft.disc.triangles);
+}
+
+/// A single face needs no solver: it is seen along its normal. Of no area it is a dot.
+void lay_in_plane(const FaceShapes& shapes, const UnwrapOptions& options, Draft& draft) {
+  const std::vector<Vec3>& points = draft.disc.points;
+  const Plane plane(shapes.normal[draft.faces[0]]);
+  for (const Vec3& p : points) draft.uv.push_back(plane.project(p - points[0]));
+  double flat = 0, space = 0;
+  for (const auto& [a, b, c] : draft.disc.triangles) {
+    flat += signed_area2(draft.uv[a], draft.uv[b], draft.uv[c]);
+    space += length(cross(points[b] - points[a], points[c] - points[a]));
+  }
+  const double scale = std::sqrt(space / flat);
+  if (shapes.area[draft.faces[0]] == 0 || !std::isfinite(scale)) {
+    draft.uv.assign(points.size(), {});
+    draft.is_good = true;
+    return;
+  }
+  for (Vec2& p : draft.uv) p = scale * p;
+  draft.distortion = measure_distortion(points, draft.uv, draft.disc.triangles);
+  draft.is_good = within_limits(draft, options);
 }
 
 }  // namespace
@@ -76,29 +83,25 @@ Draft make_draft(const Surface& surface, const Region& region, const FaceShapes&
   Draft draft;
   draft.faces = region.faces;
   draft.seams = std::move(seams);
-  draft.disc = cut_to_disc(surface, region, shapes, draft.seams, 0);
+  draft.disc = cut_to_disc(surface, region, shapes, draft.seams);
   if (draft.faces.size() == 1) {
-    lay_in_plane(shapes, draft);
-    if (shapes.area[draft.faces[0]] > 0) draft.is_good = within_limits(draft, options);
+    lay_in_plane(shapes, options, draft);
     return draft;
   }
-  if (draft.disc.triangles.size() > kMostTriangles) return draft;
+  if (draft.disc.triangles.size() > kMostTried) return draft;
   if (draft.disc.is_closed) {
     draft.seams = merged(draft.seams, cut_open(surface, region, draft.disc));
-    draft.disc = cut_to_disc(surface, region, shapes, draft.seams, 0);
-    if (draft.disc.is_closed) return draft;  // of two or three faces: split it
+    draft.disc = cut_to_disc(surface, region, shapes, draft.seams);
+    if (draft.disc.is_closed) return draft;  // one edge joins two points that lie farthest apart
   }
   flatten_draft(draft, options);
   for (int round = 0; round < kMostSeamRounds; ++round) {
     if (draft.uv.empty()) break;
-    if (draft.distortion.flipped == 0 &&
-        stretch_of(draft.distortion, options) <= options.max_stretch) {
-      break;
-    }
+    if (draft.distortion.flipped == 0 && !is_stretched(draft, options)) break;
     const auto more = seams_to_shrunk(surface, region, draft.disc, draft.uv, kShrunk);
     if (more.empty()) break;
     draft.seams = merged(draft.seams, more);
-    draft.disc = cut_to_disc(surface, region, shapes, draft.seams, 0);
+    draft.disc = cut_to_disc(surface, region, shapes, draft.seams);
     flatten_draft(draft, options);
   }
   draft.is_good = within_limits(draft, options);

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "segment/disc.h"
+#include "segment/cut_chart.h"
 #include "wrapatlas/parameterize.h"
 #include "wrapatlas/unwrap.h"
 

@@ -17,7 +17,8 @@ struct Step {
   double cost = 0;
   std::uint32_t face = 0, from = 0;
   friend bool operator>(const Step& a, const Step& b) {
-    return a.cost != b.cost ? a.cost > b.cost : a.face > b.face;
+    if (a.cost != b.cost) return a.cost > b.cost;
+    return a.face != b.face ? a.face > b.face : a.from > b.from;
   }
 };
 using Steps = std::priority_queue<Step, std::vector<Step>, std::greater<>>;
@@ -45,20 +46,20 @@ Growth grow(const Region& region, const FaceShapes& shapes, std::span<const std:
   growth.seed_of.assign(region.size(), kNone);
   std::vector<Vec3> normal_sum(seeds.size());
   Steps steps;
-  for (std::uint32_t i = 0; i < seeds.size(); ++i) steps.push({0, seeds[i], i});
+  // Before all others, also where steps cost nothing: a seed has its own face.
+  for (std::uint32_t i = 0; i < seeds.size(); ++i) steps.push({-1, seeds[i], i});
   while (!steps.empty()) {
     const Step step = steps.top();
     steps.pop();
     if (growth.seed_of[step.face] != kNone) continue;
     growth.seed_of[step.face] = step.from;
-    growth.last = step.face;
+    const double way = std::max(0.0, step.cost);
     const std::uint32_t face = region.faces[step.face];
     normal_sum[step.from] = normal_sum[step.from] + shapes.area[face] * shapes.normal[face];
     const Vec3 normal = unit(normal_sum[step.from]);
     for (const Region::Arc arc : region.arcs_of(step.face)) {
       if (growth.seed_of[arc.to] != kNone) continue;
-      steps.push(
-          {step.cost + step_cost(region, shapes, step.face, arc.to, normal), arc.to, step.from});
+      steps.push({way + step_cost(region, shapes, step.face, arc.to, normal), arc.to, step.from});
     }
   }
   return growth;

@@ -2,7 +2,8 @@
 //
 // Sander, Wood, Gortler, Snyder & Hoppe, Multi-chart geometry images (SGP 2003), section 3.1.
 // What differs: a chart is not kept a disc while it grows. Where its fronts meet, they stay parted
-// afterwards, if joining them would make a ring (segment/disc.h); so a chart may lie around a limb.
+// afterwards, if joining them would make a ring (segment/cut_chart.h); so a chart may lie around a
+// limb.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +16,6 @@ namespace wrapatlas {
 
 struct Growth {
   std::vector<std::uint32_t> seed_of;  ///< per face of the region: the number of its seed
-  std::uint32_t last = 0;              ///< the face that was reached last
 };
 
 /// All charts at once, cheapest step first. A step to a face costs the distance of the centroids

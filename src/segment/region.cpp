@@ -38,7 +38,7 @@ Region make_region(const Surface& surface, std::vector<std::uint32_t> faces, Fac
       if (surface.corner_twin[c] == kNone) continue;
       const std::uint32_t other = surface.corner_face[surface.corner_twin[c]];
       const std::uint32_t chart = owners.chart[other];
-      if (other != face && (chart == a || chart == b)) {
+      if (chart == a || chart == b) {
         region.arcs.push_back({owners.place[other], c});
       }
     }

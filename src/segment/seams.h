@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "segment/disc.h"
+#include "segment/cut_chart.h"
 
 namespace wrapatlas {
 

@@ -9,11 +9,13 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <iterator>
+#include <mutex>
 #include <set>
 
-#include "pack/parallel.h"
 #include "segment/grow.h"
+#include "threads/parallel.h"
 
 namespace wrapatlas {
 namespace {
@@ -36,7 +38,7 @@ class Segmenter {
     owners_.chart.assign(surface_.face_count(), kNone);
     owners_.place.assign(surface_.face_count(), 0);
     grow_components();
-    while (!pending_.empty() && report()) try_pending();
+    while (!pending_.empty() && !poll()) try_pending();
     merge(options_);
     if (options_.max_charts > 0) merge_beyond();
     if (stopped_) {
@@ -48,12 +50,17 @@ class Segmenter {
  private:
   using Faces = std::vector<std::uint32_t>;
 
-  bool report() {
-    if (!options_.progress) return true;
+  /// Says how far it is, one thread at a time and not all the time. True if it has to stop.
+  bool poll() {
+    if (stopped_ || !options_.progress) return stopped_;
+    const std::unique_lock lock(report_mutex_, std::try_to_lock);
+    const auto now = std::chrono::steady_clock::now();
+    if (!lock || now - last_report_ < std::chrono::milliseconds(50)) return stopped_;
+    last_report_ = now;
     const double fraction =
         double(faces_done_) / double(std::max<std::size_t>(1, surface_.face_count()));
     if (!options_.progress({0.9 * fraction, alive_})) stopped_ = true;
-    return !stopped_;
+    return stopped_;
   }
 
   [[nodiscard]] std::vector<Faces> components() {
@@ -96,6 +103,7 @@ class Segmenter {
     for (std::uint32_t i = 0; i < parts.size(); ++i) give(parts[i], i);
     std::vector<std::vector<Faces>> grown(parts.size());
     parallel_for(parts.size(), thread_count(options_.threads), [&](std::size_t i) {
+      if (poll()) return;
       const std::uint32_t count = first_charts(parts[i].size());
       if (count == 1) {
         grown[i].push_back(std::move(parts[i]));
@@ -118,10 +126,13 @@ class Segmenter {
     drafts_.resize(first + count);
     std::vector<std::vector<Faces>> parts(count);
     parallel_for(count, thread_count(options_.threads), [&](std::size_t i) {
+      if (poll()) return;
       const auto chart = static_cast<std::uint32_t>(first + i);
       const Region region = make_region(surface_, std::move(pending_[i]), owners_, chart);
       Draft draft = try_region(region, {}, options_);
       if (draft.is_good || region.size() == 1) {
+        ++alive_;
+        faces_done_ += draft.faces.size();
         drafts_[chart] = std::move(draft);
       } else {
         parts[i] = divided(region, grow_charts(surface_, region, shapes_, 2, kSplitRounds));
@@ -129,10 +140,6 @@ class Segmenter {
     });
     pending_.clear();
     for (std::size_t i = 0; i < count; ++i) {
-      if (parts[i].empty()) {
-        ++alive_;
-        faces_done_ += drafts_[first + i].faces.size();
-      }
       for (Faces& faces : parts[i]) pending_.push_back(std::move(faces));
     }
   }
@@ -181,7 +188,8 @@ class Segmenter {
       round[border.b] += border.length;
     }
     for (Border& border : borders) {
-      border.share = border.length / std::min(round[border.a], round[border.b]);
+      const double least = std::min(round[border.a], round[border.b]);
+      border.share = least > 0 ? border.length / least : 0;
     }
     std::stable_sort(borders.begin(), borders.end(),
                      [](const Border& x, const Border& y) { return x.share > y.share; });
@@ -190,22 +198,26 @@ class Segmenter {
 
   void merge(const UnwrapOptions& options) {
     std::set<std::pair<std::uint32_t, std::uint32_t>> failed;
-    while (report()) {
+    while (!poll()) {
       std::vector<Border> wave;
       std::vector<bool> taken(drafts_.size(), false);
       for (const Border& border : borders()) {
-        if (taken[border.a] || taken[border.b] || failed.count({border.a, border.b}) > 0) continue;
+        const std::pair pair{border.a, border.b};
+        if (taken[border.a] || taken[border.b]) continue;
+        if (failed.count(pair) > 0 || hopeless_.count(pair) > 0) continue;
         taken[border.a] = taken[border.b] = true;
         wave.push_back(border);
       }
       if (wave.empty() || enough_merged(options)) return;
       std::vector<Draft> unions(wave.size());
-      parallel_for(wave.size(), thread_count(options_.threads),
-                   [&](std::size_t i) { unions[i] = joined(wave[i], options); });
+      parallel_for(wave.size(), thread_count(options_.threads), [&](std::size_t i) {
+        if (!poll()) unions[i] = joined(wave[i], options);
+      });
+      if (stopped_) return;
       for (std::size_t i = 0; i < wave.size(); ++i) {
         if (enough_merged(options)) return;
         if (!unions[i].is_good) {
-          failed.insert({wave[i].a, wave[i].b});
+          (unions[i].uv.empty() ? hopeless_ : failed).insert({wave[i].a, wave[i].b});
           continue;
         }
         drafts_[wave[i].a] = {};
@@ -260,9 +272,13 @@ class Segmenter {
   FaceOwners owners_;
   std::vector<Faces> pending_;
   std::vector<Draft> drafts_;  // by the number in owners_.chart; without faces: split or merged
-  std::size_t alive_ = 0, faces_done_ = 0;
+  /// Pairs whose union cannot be flattened at all, whatever stretch is allowed.
+  std::set<std::pair<std::uint32_t, std::uint32_t>> hopeless_;
+  std::atomic<std::size_t> alive_ = 0, faces_done_ = 0;
   std::atomic<std::int64_t> flatten_nanoseconds_ = 0;
-  bool stopped_ = false;
+  std::atomic<bool> stopped_ = false;
+  std::mutex report_mutex_;
+  std::chrono::steady_clock::time_point last_report_;
 };
 
 }  // namespace

@@ -20,7 +20,7 @@ Status check_options(const UnwrapOptions& options) {
     return Error{ErrorKind::usage, "max stretch", "no chart has less than 1",
                  "pass 1 or more; 2 is usual"};
   }
-  if (options.flatten.iterations < 1 || options.flatten.iterations > 20) {
+  if (options.flatten.iterations < 1 || options.flatten.iterations > kMostIterations) {
     return Error{ErrorKind::usage, "iterations", "it must be from 1 to 20", "leave it at 2"};
   }
   return Done{};
@@ -59,6 +59,12 @@ class Shelves {
   Vec2 end_;
   double height_ = 0;  ///< of the shelf in use
 };
+
+bool has_area(const Mesh& mesh, const Surface& surface) {
+  const auto is_wide = [&](std::uint32_t face) { return polygon_normal(mesh, face) != Vec3{}; };
+  return surface.report.flat_faces < surface.face_count() ||
+         std::any_of(surface.folded_faces.begin(), surface.folded_faces.end(), is_wide);
+}
 
 double border_length(const CutChart& disc) {
   double sum = 0;
@@ -119,6 +125,9 @@ void add_folded(std::uint32_t face, Shelves& shelves, Unwrapping& result) {
   UnwrappedChart chart;
   chart.faces = 1;
   chart.area = 0.5 * length(normal);
+  for (std::size_t i = 0; i < flat.size(); ++i) {
+    chart.border_length += length(flat[(i + 1) % flat.size()] - flat[i]);
+  }
   result.charts.push_back(chart);
 }
 
@@ -134,7 +143,7 @@ Result<Unwrapping> unwrap(const Mesh& mesh, const UnwrapOptions& options) {
   auto surface = build_surface(mesh, options.surface);
   if (!surface) return surface.error();
   result.surface_seconds = seconds_now() - start;
-  if (surface->report.flat_faces == surface->face_count()) {
+  if (!has_area(mesh, *surface)) {
     return Error{ErrorKind::input, "mesh", "its faces have no area",
                  "export it again: the points of each face lie on one line"};
   }

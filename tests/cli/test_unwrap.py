@@ -142,6 +142,13 @@ class Unwrap(support.CommandTest):
                 loud = self.call("unwrap", "a.obj", "-o", "c.obj", "--time", 0)
                 self.assertRegex(loud.stderr, r"a\.obj: note: " + str(count))
 
+    def test_says_when_charts_cannot_be_joined(self):
+        self.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 5 0 0\nv 6 0 0\nv 5 1 0\n"
+                   "f 1 2 3\nf 4 5 6\n")
+        done = self.call("unwrap", "a.obj", "-o", "b.obj", "--max-charts", 1, "--time", 0)
+        self.assertEqual(done.returncode, 0)
+        self.assertRegex(done.stderr, "note: no more charts could be joined")
+
     def test_same_bytes_for_any_number_of_threads(self):
         source = self.sample("knot.off")
         for threads in (1, 2, 5):
@@ -163,6 +170,9 @@ class Unwrap(support.CommandTest):
                     "--image-size", 64)
         self.succeed("unwrap", source, "-o", "b.obj", "--stop-after", "charts", "--view", "v.png")
         self.assertEqual(self.path("v.png").read_bytes(), self.path("view.png").read_bytes())
+        # The seams are those of the new charts, not of UVs that the model had.
+        self.succeed("unwrap", "a.obj", "-o", "b.obj", "--stop-after", "flat", "--view", "v2.png")
+        self.assertEqual(self.path("v2.png").read_bytes(), self.path("view.png").read_bytes())
         refusals = ((("--heat", "v.png"), "nothing is packed", ("--stop-after", "flat")),
                     (("--view", "v.svg"), "pixels", ()), (("--view", "c.obj"), "", ()),
                     (("--view", "same.png", "--heat", "same.png"), "", ()),

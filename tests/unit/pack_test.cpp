@@ -9,10 +9,10 @@
 #include <thread>
 
 #include "pack/frame.h"
-#include "pack/parallel.h"
 #include "pack/scale_search.h"
 #include "support/shapes.h"
 #include "support/soup_check.h"
+#include "threads/parallel.h"
 #include "wrapatlas/validate.h"
 
 namespace wrapatlas {

@@ -5,8 +5,8 @@
 
 #include <limits>
 
-#include "pack/parallel.h"
 #include "support/surfaces.h"
+#include "threads/parallel.h"
 
 namespace wrapatlas {
 namespace {

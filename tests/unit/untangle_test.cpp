@@ -63,6 +63,20 @@ TEST(Untangle, LeavesAloneWhatIsFine) {
   EXPECT_EQ(flat.uv, before);
 }
 
+TEST(Untangle, AHubOfManyFlippedTriangles) {
+  // Half of the rim is drawn through the hub; points of the hub count once, not once a triangle.
+  constexpr std::uint32_t kCount = 20'000;
+  Flat fan;
+  fan.uv.push_back({0.3, 0});
+  for (std::uint32_t i = 0; i < kCount; ++i) {
+    const double angle = 2 * 3.141592653589793 * i / kCount;
+    fan.uv.push_back({i % 2 == 0 ? std::cos(angle) : -0.5 * std::cos(angle), std::sin(angle)});
+    fan.triangles.push_back({0, i + 1, (i + 1) % kCount + 1});
+  }
+  untangle(fan.uv, fan.triangles);
+  for (const Vec2 p : fan.uv) ASSERT_TRUE(std::isfinite(p.x) && std::isfinite(p.y));
+}
+
 TEST(Untangle, SaysWhatIsLeft) {
   // Front and back of one triangle.
   Flat flat{{{0, 0}, {1, 0}, {0, 1}}, {{0, 1, 2}, {0, 2, 1}}};

@@ -1,9 +1,12 @@
 // Whole meshes, whole and broken, come to charts that keep every promise.
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <cmath>
 #include <map>
 #include <random>
 #include <set>
+#include <thread>
 
 #include "support/shapes.h"
 #include "support/solids.h"
@@ -86,9 +89,10 @@ Unwrapping expect_unwrapped(const Mesh& mesh, const UnwrapOptions& options = {})
     for (const auto& [edge, count] : edges) EXPECT_LE(count, 2);
     EXPECT_EQ(result->charts[chart].faces, faces.size());
     if (space.size() != faces.size() || result->surface.turned_faces > 0 ||
-        result->charts[chart].area == 0) {
+        result->charts[chart].area < 1e-15) {  // a line but for rounding: a dot
       continue;
     }
+    for (const Vec2 uv : out.texcoords) EXPECT_TRUE(std::isfinite(uv.x) && std::isfinite(uv.y));
     const double l2 = slow_l2(space, plane);
     if (options.max_charts == 0) {
       EXPECT_LE(l2, options.max_stretch * (1 + 1e-9));
@@ -204,6 +208,64 @@ TEST(Unwrap, FlatFacesAlone) {
   expect_unwrapped(test::bare_mesh(points, {{0, 1, 2}, {0, 2, 3}, {4, 5, 5}, {3, 4, 5}}));
 }
 
+TEST(Unwrap, FacesThatAreLinesButForRounding) {
+  // Decimals on a line: as doubles they have areas of about 1e-17, of either sign in their plane.
+  const Mesh slivers = test::bare_mesh({{1.1, 0.7, 0.3},
+                                        {1.2, 0.9, 0.6},
+                                        {1.3, 1.1, 0.9},
+                                        {1.3, 2.2, 0.1},
+                                        {1.4, 2.5, 0.3},
+                                        {1.5, 2.8, 0.5}},
+                                       {{0, 1, 2}, {3, 4, 5}});
+  EXPECT_FALSE(unwrap(slivers));
+  const Unwrapping u = expect_unwrapped(test::both(slivers, test::sheet(3)));
+  for (const Vec2 uv : u.mesh.texcoords) EXPECT_TRUE(std::isfinite(uv.x) && std::isfinite(uv.y));
+  EXPECT_EQ(u.surface.flat_faces, 2U);
+  for (const UnwrappedChart& chart : u.charts) EXPECT_TRUE(chart.is_good);
+}
+
+TEST(Unwrap, NoStretchAtAllIsEnoughForFlatThings) {
+  UnwrapOptions options;
+  options.max_stretch = 1;
+  std::mt19937_64 random(5);
+  for (int trial = 0; trial < 200; ++trial) {
+    std::vector<Vec3> points;
+    for (int i = 0; i < 3; ++i) {
+      points.push_back({test::uniform(random, -1, 1), test::uniform(random, -1, 1),
+                        test::uniform(random, -1, 1)});
+    }
+    const auto u = unwrap(test::bare_mesh(points, {{0, 1, 2}}), options);
+    ASSERT_TRUE(u && u->charts[0].is_good);
+  }
+  EXPECT_EQ(expect_unwrapped(test::sheet(9), options).charts.size(), 1U);
+}
+
+TEST(Unwrap, SmallClosedThings) {
+  const Mesh tetrahedron = test::bare_mesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
+                                           {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}});
+  EXPECT_LE(expect_unwrapped(tetrahedron).charts.size(), 2U);
+}
+
+TEST(Unwrap, APlateWithAHoleAsOneFace) {
+  // A keyhole polygon: it uses the points of its slit twice.
+  const Mesh plate = test::bare_mesh(
+      {{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0}, {1, 1, 0}, {1, 3, 0}, {3, 3, 0}, {3, 1, 0}},
+      {{0, 1, 2, 3, 0, 4, 5, 6, 7, 4}});
+  const auto u = unwrap(plate);
+  ASSERT_TRUE(u) << u.error().message();
+  EXPECT_EQ(u->surface.folded_faces, 1U);
+  ASSERT_EQ(u->charts.size(), 1U);
+  EXPECT_NEAR(u->charts[0].area, 12, 1e-12);
+  EXPECT_NEAR(u->charts[0].border_length, 24 + 2 * std::sqrt(2), 1e-12);
+}
+
+TEST(Unwrap, WhatCannotBeJoinedStaysApart) {
+  UnwrapOptions options;
+  options.max_charts = 1;
+  const Mesh two = test::both(test::sheet(3), test::moved(test::sheet(3), {9, 0, 0}));
+  EXPECT_EQ(expect_unwrapped(two, options).charts.size(), 2U);
+}
+
 TEST(Unwrap, ThreadsChangeNothing) {
   UnwrapOptions one, four;
   one.threads = 1;
@@ -226,6 +288,17 @@ TEST(Unwrap, RefusesAndStops) {
   options.flatten.iterations = 2;
   options.progress = [](const UnwrapProgress&) { return false; };
   EXPECT_EQ(unwrap(test::ball(8), options).error().kind, ErrorKind::interrupted);
+  // In the middle: it is not asked again. It is asked every 50 ms at most.
+  Mesh many = test::ball(6);
+  for (int i = 1; i < 20; ++i) many = test::both(many, test::moved(test::ball(6), {3.0 * i, 0, 0}));
+  int calls = 0;
+  options.progress = [&calls](const UnwrapProgress&) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(60));
+    return ++calls < 3;
+  };
+  options.threads = 1;
+  EXPECT_EQ(unwrap(many, options).error().kind, ErrorKind::interrupted);
+  EXPECT_EQ(calls, 3);
 }
 
 }  // namespace

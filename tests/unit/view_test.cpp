@@ -119,6 +119,21 @@ TEST(SeamEdges, LieBetweenChartsAndWhereAChartIsCutOpen) {
   EXPECT_EQ(seam_edges(mesh, one).size(), 1U) << "a face without UVs beside one with";
 }
 
+TEST(SeamEdges, OfAPolygonOfManyCornersTakeNoLongerThanOfManyFaces) {
+  constexpr std::uint32_t kCount = 200'000;
+  std::vector<Vec3> positions;
+  test::Face cap;
+  for (std::uint32_t i = 0; i < kCount; ++i) {
+    const double angle = 2 * std::numbers::pi * i / kCount;
+    positions.push_back({std::cos(angle), std::sin(angle), 0});
+    cap.push_back(i);
+  }
+  const test::Face back(cap.rbegin(), cap.rend());
+  const Mesh disc = test::bare_mesh(positions, {cap, back});
+  EXPECT_EQ(seam_edges(disc, std::vector<std::uint32_t>{0, 1}).size(), kCount);
+  EXPECT_TRUE(seam_edges(disc, std::vector<std::uint32_t>{0, 0}).empty());
+}
+
 TEST(DrawMesh, ACubeShowsThreeSidesInTheirColours) {
   const Mesh cube = test::bare_mesh(
       {{-1, -1, -1},

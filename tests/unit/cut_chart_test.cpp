@@ -5,7 +5,7 @@
 #include <random>
 #include <set>
 
-#include "segment/disc.h"
+#include "segment/cut_chart.h"
 #include "segment/grow.h"
 #include "segment/seams.h"
 #include "support/solids.h"
@@ -34,7 +34,7 @@ Whole whole(const Mesh& mesh) {
 }
 
 CutChart disc_of(const Whole& w, std::span<const std::uint32_t> seams = {}) {
-  return cut_to_disc(w.surface, w.region, w.shapes, seams, 0);
+  return cut_to_disc(w.surface, w.region, w.shapes, seams);
 }
 
 /// Connected, of Euler characteristic 1, with one border that meets no point twice.

@@ -1,4 +1,4 @@
-// The one place where the packers make threads.
+// The one place where the library makes threads.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "segment/disc.h"
+#include "segment/cut_chart.h"
 
 #include <algorithm>
 #include <queue>
@@ -14,11 +14,11 @@ class ChartCutter {
               std::span<const std::uint32_t> seams)
       : surface_(surface), region_(region), shapes_(shapes), seams_(seams) {}
 
-  CutChart build(std::uint32_t root) {
+  CutChart build() {
     number_corners();
     find_twins();
     begin_loops();
-    join_faces(root);
+    join_faces();
     close_border();
     number_points();
     return std::move(disc_);
@@ -70,7 +70,7 @@ class ChartCutter {
     disc_.corner_twin[b] = a;
   }
 
-  void join_faces(std::uint32_t root) {
+  void join_faces() {
     struct Step {
       double cost;
       std::uint32_t face, through;  // the corner it is entered by, of the face before it
@@ -80,7 +80,7 @@ class ChartCutter {
     };
     std::priority_queue<Step, std::vector<Step>, std::greater<>> steps;
     std::vector<bool> reached(region_.size(), false);
-    steps.push({0, root, kNone});
+    steps.push({0, 0, kNone});
     while (!steps.empty()) {
       const Step step = steps.top();
       steps.pop();
@@ -166,8 +166,8 @@ class ChartCutter {
 }  // namespace
 
 CutChart cut_to_disc(const Surface& surface, const Region& region, const FaceShapes& shapes,
-                     std::span<const std::uint32_t> seams, std::uint32_t root) {
-  return ChartCutter(surface, region, shapes, seams).build(root);
+                     std::span<const std::uint32_t> seams) {
+  return ChartCutter(surface, region, shapes, seams).build();
 }
 
 }  // namespace wrapatlas

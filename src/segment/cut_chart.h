@@ -29,12 +29,12 @@ struct CutChart {
 };
 
 /// Cuts the region to a disc: along the edges in `seams` (corners of the surface, both of each
-/// edge, ascending), and where else it has to, far from face `root` of the region. First faces are
-/// joined along the shortest ways from the root, which gives a disc; then edges of its border that
+/// edge, ascending), and where else it has to, far from its first face. First faces are
+/// joined along the shortest ways from that one, which gives a disc; then edges of its border that
 /// follow one another and are one edge of the surface are closed. What stays open is a seam along
-/// which the ways from the root meet (a cut locus), with no dead ends but those of `seams`.
+/// which the ways from it meet (a cut locus), with no dead ends but those of `seams`.
 /// The region less its seams must be connected. O(n log n).
 CutChart cut_to_disc(const Surface& surface, const Region& region, const FaceShapes& shapes,
-                     std::span<const std::uint32_t> seams, std::uint32_t root);
+                     std::span<const std::uint32_t> seams);
 
 }  // namespace wrapatlas

@@ -67,6 +67,13 @@ class Bench(BenchTest):
         self.assertLessEqual(float(knot["l2"]), 2)
         self.assertTrue(list((self.folder / "r" / "charts").glob("meshes-knot-*.obj")))
 
+    def test_every_column_is_explained(self):
+        self.sample("coral.glb")
+        self.bench("coral.glb", "-o", "r", *QUICK, "--methods", "lprm02")
+        page = (support.SAMPLES.parent / "docs" / "reports.md").read_text()
+        told = set(re.findall(r"`(\w+)`", page.split("## bench")[1]))
+        self.assertEqual(set(self.rows()[0]) - told, set())
+
     def test_the_same_as_pack_finds(self):
         self.sample("machine.obj")
         self.bench("machine.obj", "-o", "r", *QUICK, "--methods", "swg03,modulo", "--wrap", "u")

@@ -3,10 +3,13 @@ some of them end it when they fail. Writes UVs per vertex, scale and seconds, as
 
 import importlib
 import json
+import pathlib
 import sys
 
 import numpy
-from obj_charts import Charts, Obj
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+from obj_charts import Charts, Obj  # noqa: E402
 
 
 def main():

@@ -76,7 +76,7 @@ def pack(charts, padding, seconds=20.0, seed=0, threads=2, **_):
 
 
 def solved(outlines, height, separation, seconds, seed, threads):
-    items = [spyrrow.Item(str(number), points.tolist(), demand=1, allowed_orientations=None)
+    items = [spyrrow.Item(str(number), [tuple(p) for p in points.tolist()], demand=1, allowed_orientations=None)
              for number, points in enumerate(outlines)]
     instance = spyrrow.StripPackingInstance("charts", strip_height=height, items=items)
     config = spyrrow.StripPackingConfig(

@@ -1,4 +1,5 @@
-// Few charts: modulo's packing, then separation. More: best fit, then separation if there is time.
+// Few charts: modulo's packing, then separation; from 40 on best fit where that comes to nothing.
+// More than 200: best fit, then separation if there is time.
 // Many: best fit, from different orders.
 
 #include "guided/guided.h"
@@ -22,6 +23,9 @@ namespace {
 constexpr std::size_t kMostSeparated = 200;
 /// Up to so many charts separation goes on from best fit.
 constexpr std::size_t kMostImproved = 1000;
+
+/// Up to so many charts separation begins from modulo's packing alone.
+constexpr std::size_t kFewCharts = 40;
 
 /// Texels to a cell of the final grid.
 double fine_cell(const PackOptions& options, std::size_t charts) {
@@ -72,6 +76,25 @@ struct Task {
   }
 };
 
+/// Of many charts some may fit nowhere on a coarse grid, and separation then comes to nothing. True
+/// if it does not, and has been run to its end. Else best fit has been, to begin from.
+bool separate_or_fit(Task& task, std::span<const ChartShape> shapes) {
+  constexpr double kSuccess = 1.02;
+  const double before = task.record.efficiency();
+  if (task.frames.size() == 1) {
+    Lines lines(shapes, task.options, task.frames, task.record);
+    if (task.record.best()) lines.begin_with(*task.record.best(), false);
+    lines.run_until_stuck();
+    if (task.record.efficiency() > kSuccess * before) {
+      lines.go_on();
+      return true;
+    }
+  }
+  const std::span<const Frame> frames(task.frames);
+  search_best_fit(shapes, task.options, frames.first(1), task.record, false);
+  return false;
+}
+
 void separate_few(Task& task) {
   task.offer_first();
   if (task.failure && task.failure->kind == ErrorKind::interrupted) return;
@@ -79,12 +102,12 @@ void separate_few(Task& task) {
   task.frames = without_mirrored(task.frames, task.options.wrap, task.record.best());
   const std::vector<ChartShape> shapes = make_shapes(task.charts);
   // With so little time for so many charts separation may come to nothing.
-  constexpr double kShort = 0.5, kShortPerChart = 0.015;  // seconds
+  constexpr double kShort = 0.5, kShortPerChart = 0.03;  // seconds
   const double enough = std::max(kShort, kShortPerChart * static_cast<double>(shapes.size()));
-  if (task.record.timed() && task.options.time < enough) {
-    search_best_fit(shapes, task.options, task.frames, task.record, false);
-  }
+  const bool is_short = task.record.timed() && task.options.time < enough;
+  if (is_short) search_best_fit(shapes, task.options, task.frames, task.record, false);
   search_assembly(shapes, task.options, task.frames, task.record);
+  if (!is_short && shapes.size() > kFewCharts && separate_or_fit(task, shapes)) return;
   Lines lines(shapes, task.options, task.frames, task.record);
   if (task.record.best()) lines.begin_with(*task.record.best(), false);
   lines.run();

@@ -124,37 +124,43 @@ double Lines::end() const {
   return record_.timed() ? 1 - std::min(kRefineShare, kRefineSeconds / options_.time) : 1;
 }
 
+void Lines::improve_all() {
+  each_line([&](Line& line) {
+    Effort effort = record_.effort(1);
+    improve(line, effort);
+  });
+}
+
 void Lines::run() {
-  const bool once = !record_.timed() && options_.moves == 0;
-  double spent = 0;
+  run_until_stuck();
+  go_on();
+}
+
+void Lines::run_until_stuck() {
   const std::size_t wanted = lines_wanted();
-  const bool choose = lines_.size() > wanted;
-  if (choose) {
+  if (lines_.size() > wanted) {
     // Halving: all shapes get a little time, the better half of them as much again, and so on.
     int rounds = 1;
     while (lines_.size() >> rounds > wanted) ++rounds;
     for (int round = 0; round < rounds && !record_.stopped(); ++round) {
       const double share = kShapesShare / rounds;
-      spend(spent, spent + share, round == 0);
-      spent += share;
-      keep_best(once ? wanted : std::max(wanted, lines_.size() / 2));
-      if (once) break;
+      spend(spent_, spent_ + share, round == 0);
+      spent_ += share;
+      keep_best(once() ? wanted : std::max(wanted, lines_.size() / 2));
+      if (once()) break;
     }
   } else {
     spend(0, end(), true);
   }
-  const auto improve_all = [&] {
-    each_line([&](Line& line) {
-      Effort effort = record_.effort(1);
-      improve(line, effort);
-    });
-  };
   improve_all();
-  if (once) return;
+}
+
+void Lines::go_on() {
+  if (once()) return;
   for (int epoch = 1; epoch <= kEpochs && !record_.stopped(); ++epoch) {
     share_best();
-    const double from = spent + (end() - spent) * (epoch - 1) / kEpochs;
-    const double to = spent + (end() - spent) * epoch / kEpochs;
+    const double from = spent_ + (end() - spent_) * (epoch - 1) / kEpochs;
+    const double to = spent_ + (end() - spent_) * epoch / kEpochs;
     spend(from, to, false);
     improve_all();
   }

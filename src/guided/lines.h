@@ -21,8 +21,11 @@ class Lines {
 
   /// Lets lines that do not begin anywhere begin with a packing: the first, or all.
   void begin_with(const Packing& packing, bool all);
-  /// Searches until the record says that it is enough.
+  /// Searches until the record says that it is enough: the two below.
   void run();
+  /// Until each line has failed once. Of several frames: chooses the best ones.
+  void run_until_stuck();
+  void go_on();
 
  private:
   struct Line {
@@ -39,6 +42,9 @@ class Lines {
   [[nodiscard]] bool any_shape() const { return options_.aspect == Aspect::search; }
   [[nodiscard]] Frame frame_of(const Line& line) const;
   void improve(Line& line, Effort& effort);
+  void improve_all();
+  /// Neither a time nor moves: it ends when it is stuck.
+  [[nodiscard]] bool once() const { return !record_.timed() && options_.moves == 0; }
   void keep_best(std::size_t count);
   void share_best();
   [[nodiscard]] std::size_t lines_wanted() const;
@@ -48,6 +54,7 @@ class Lines {
   const PackOptions& options_;
   Record& record_;
   std::int64_t moves_left_;
+  double spent_ = 0;       ///< share of the time that go_on() does not have
   std::size_t begun_ = 0;  ///< lines at first
   std::vector<std::unique_ptr<Line>> lines_;
 };

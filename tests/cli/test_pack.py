@@ -349,6 +349,14 @@ class Outputs(support.CommandTest):
                     self.assertLess(report["efficiency"], report["unpadded_efficiency"])
                     self.assertLess(report["unpadded_efficiency"], 1)
 
+    def test_guided_is_denser_than_modulo_where_separation_cannot_begin(self):
+        self.sample("machine.obj")
+        options = ("--wrap", "none", "--margin", 0, "--padding", 2)
+        modulo, guided = (self.report("pack", "machine.obj", "-o", "a.obj", *options, "--method",
+                                      *method)["efficiency"]
+                          for method in (("modulo",), ("guided", "--time", 0)))
+        self.assertGreater(guided, 1.2 * modulo)
+
     def test_report_of_what_was_asked(self):
         self.write("a.glb", gltf_maker.two_uv_sets().glb())
         keys = ("padding", "margin", "block", "aspect", "stacked_mode", "texcoord", "rotations")

@@ -43,14 +43,14 @@ TABLES = {
     "Safe packing at 1024, padding 4": [
         ("modulo, horizons", SAFE),
         ("modulo, no wrap", [*SAFE, "--wrap", "none"]),
-        ("guided, best fit alone (0 s)", guided("0")),
-        ("guided, best fit alone, no wrap", guided("0", "--wrap", "none")),
-        ("guided, best fit, 4 rotations", guided("0", "--rotations", "4")),
-        ("guided, best fit, 64 rotations", guided("0", "--rotations", "64")),
-        ("guided, separation 1 s", guided("1")),
-        ("guided, separation 1 s, no wrap", guided("1", "--wrap", "none")),
-        ("guided, separation 10 s", guided("10")),
-        ("guided, separation 10 s, no wrap", guided("10", "--wrap", "none")),
+        ("guided, until it is stuck once (0 s)", guided("0")),
+        ("guided, 0 s, no wrap", guided("0", "--wrap", "none")),
+        ("guided, 0 s, 4 rotations in best fit", guided("0", "--rotations", "4")),
+        ("guided, 0 s, 64 rotations in best fit", guided("0", "--rotations", "64")),
+        ("guided, 1 s", guided("1")),
+        ("guided, 1 s, no wrap", guided("1", "--wrap", "none")),
+        ("guided, 10 s", guided("10")),
+        ("guided, 10 s, no wrap", guided("10", "--wrap", "none")),
     ],
 }
 

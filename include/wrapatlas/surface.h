@@ -27,7 +27,7 @@ struct SurfaceReport {
   std::uint32_t one_sided_edges = 0;  ///< where the surface came back turned round: parted
   std::uint32_t crowded_edges =
       0;  ///< of more than two faces: these go on in pairs, the flattest first
-  std::uint32_t shared_points = 0;    ///< at which several sheets meet: each has its own vertex
+  std::uint32_t shared_points = 0;    ///< at which several sheets of the mesh meet
   std::uint32_t duplicate_faces = 0;  ///< of the same points as an earlier face
   std::uint32_t components = 0;
   std::uint32_t border_edges = 0;  ///< of one face, after all that is said above

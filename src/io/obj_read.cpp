@@ -63,8 +63,10 @@ class ObjReader {
     materials_.rename(face_material_, mesh_.face_count(), {});
     return check_forward_references();
   }
-  [[nodiscard]] std::vector<std::uint32_t> face_material() && { return std::move(face_material_); }
-  [[nodiscard]] std::vector<std::string> material_files() && { return std::move(material_files_); }
+  void move_materials_to(Model& model) {
+    model.face_material = std::move(face_material_);
+    model.material_files = std::move(material_files_);
+  }
 
  private:
   bool fail(std::string what, std::string remedy) {
@@ -213,8 +215,7 @@ Result<Model> read_obj(std::string bytes, std::string_view name) {
   Result<Mesh> mesh = reader.read();
   if (!mesh) return mesh.error();
   Model model;
-  model.material_files = std::move(reader).material_files();
-  model.face_material = std::move(reader).face_material();
+  reader.move_materials_to(model);
   model.mesh = *std::move(mesh);
   model.format = FileFormat::obj;
   model.source = std::make_unique<ObjSource>(std::move(bytes));

@@ -22,6 +22,7 @@ class SurfaceBuilder {
     leave_out_folded_faces();
     pair_edges();
     wind_alike();
+    count_shared_points();
     part();
     copy_faces();
     number_vertices();
@@ -180,6 +181,23 @@ class SurfaceBuilder {
     }
   }
 
+  /// Points with more than one fan of faces around them.
+  void count_shared_points() {
+    UnionFind fans(static_cast<std::uint32_t>(twin_.size()));
+    for (std::uint32_t c = 0; c < twin_.size(); ++c) {
+      const std::uint32_t t = twin_[c];
+      if (t == kNone) continue;
+      const bool same_way = welded_.of_corner[c] == welded_.of_corner[t];
+      fans.unite(c, same_way ? t : next(t));
+      fans.unite(next(c), same_way ? next(t) : t);
+    }
+    std::vector<std::uint32_t> fans_at(welded_.count, 0);
+    for (std::uint32_t c = 0; c < twin_.size(); ++c) {
+      if (is_folded_[corner_face_[c]] || fans.find(c) != c) continue;
+      if (++fans_at[welded_.of_corner[c]] == 2) ++surface_.report.shared_points;
+    }
+  }
+
   /// The edges that the caller wants to be borders.
   void part() {
     const double least_cosine = options_.hard_angle < 0 ? -2 : std::cos(options_.hard_angle);
@@ -259,7 +277,6 @@ class SurfaceBuilder {
       if (t != kNone) fans.unite(c, surface_.next(t));
     }
     surface_.corner_vertex.resize(corners);
-    std::vector<std::uint32_t> fans_at(welded_.count, 0);
     for (std::uint32_t c = 0; c < corners; ++c) {
       const std::uint32_t root = fans.find(c), source = surface_.corner_source[c];
       if (root != c) {
@@ -268,7 +285,6 @@ class SurfaceBuilder {
       }
       surface_.corner_vertex[c] = static_cast<std::uint32_t>(surface_.points.size());
       surface_.points.push_back(mesh_.positions[mesh_.corner_position[source]]);
-      if (++fans_at[welded_.of_corner[source]] == 2) ++surface_.report.shared_points;
     }
   }
 

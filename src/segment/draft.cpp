@@ -41,13 +41,10 @@ void flatten_draft(Draft& draft, const UnwrapOptions& options) {
   draft.distortion = measure_distortion(draft.disc.points, draft.uv, draft.disc.triangles);
 }
 
-bool is_stretched(const Draft& draft, const UnwrapOptions& options) {
-  constexpr double kRounding = 1e-9;  // a flat chart is good where no stretch is allowed
-  return stretch_of(draft.distortion, options) > options.max_stretch * (1 + kRounding);
-}
+bool is_unflipped(const Draft& draft) { return !draft.uv.empty() && draft.distortion.flipped == 0; }
 
 bool within_limits(const Draft& draft, const UnwrapOptions& options) {
-  return !draft.uv.empty() && draft.distortion.flipped == 0 && !is_stretched(draft, options) &&
+  return is_unflipped(draft) && !is_stretched(draft, options) &&
          !border_crosses(draft.uv, draft.disc.triangles);
 }
 
@@ -74,8 +71,11 @@ void lay_in_plane(const FaceShapes& shapes, const UnwrapOptions& options, Draft&
 
 }  // namespace
 
-double stretch_of(const Distortion& distortion, const UnwrapOptions& options) {
-  return options.stretch == StretchMeasure::l2 ? distortion.l2 : distortion.linf;
+bool is_stretched(const Draft& draft, const UnwrapOptions& options) {
+  constexpr double kRounding = 1e-9;  // a flat chart is good where no stretch is allowed
+  const Distortion& found = draft.distortion;
+  const double stretch = options.stretch == StretchMeasure::l2 ? found.l2 : found.linf;
+  return is_unflipped(draft) && stretch > options.max_stretch * (1 + kRounding);
 }
 
 Draft make_draft(const Surface& surface, const Region& region, const FaceShapes& shapes,
@@ -97,7 +97,7 @@ Draft make_draft(const Surface& surface, const Region& region, const FaceShapes&
   flatten_draft(draft, options);
   for (int round = 0; round < kMostSeamRounds; ++round) {
     if (draft.uv.empty()) break;
-    if (draft.distortion.flipped == 0 && !is_stretched(draft, options)) break;
+    if (is_unflipped(draft) && !is_stretched(draft, options)) break;
     const auto more = seams_to_shrunk(surface, region, draft.disc, draft.uv, kShrunk);
     if (more.empty()) break;
     draft.seams = merged(draft.seams, more);

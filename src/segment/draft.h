@@ -26,7 +26,7 @@ struct Draft {
 Draft make_draft(const Surface& surface, const Region& region, const FaceShapes& shapes,
                  std::vector<std::uint32_t> seams, const UnwrapOptions& options);
 
-/// The measure that options.max_stretch bounds.
-double stretch_of(const Distortion& distortion, const UnwrapOptions& options);
+/// Is it flat, without flips, and stretched beyond options.max_stretch?
+bool is_stretched(const Draft& draft, const UnwrapOptions& options);
 
 }  // namespace wrapatlas

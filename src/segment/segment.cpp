@@ -218,6 +218,7 @@ class Segmenter {
         if (enough_merged(options)) return;
         if (!unions[i].is_good) {
           (unions[i].uv.empty() ? hopeless_ : failed).insert({wave[i].a, wave[i].b});
+          stretch_failed_ = stretch_failed_ || is_stretched(unions[i], options);
           continue;
         }
         drafts_[wave[i].a] = {};
@@ -250,7 +251,9 @@ class Segmenter {
   void merge_beyond() {
     UnwrapOptions options = options_;
     constexpr double kFarthest = 1e3;
-    while (alive_ > options_.max_charts && options.max_stretch < kFarthest && !stopped_) {
+    while (alive_ > options_.max_charts && stretch_failed_ && options.max_stretch < kFarthest &&
+           !stopped_) {
+      stretch_failed_ = false;
       options.max_stretch *= 1.25;
       merge(options);
     }
@@ -274,6 +277,7 @@ class Segmenter {
   std::vector<Draft> drafts_;  // by the number in owners_.chart; without faces: split or merged
   /// Pairs whose union cannot be flattened at all, whatever stretch is allowed.
   std::set<std::pair<std::uint32_t, std::uint32_t>> hopeless_;
+  bool stretch_failed_ = false;  // of the last merge: some union was stretched too much
   std::atomic<std::size_t> alive_ = 0, faces_done_ = 0;
   std::atomic<std::int64_t> flatten_nanoseconds_ = 0;
   std::atomic<bool> stopped_ = false;

@@ -6,6 +6,7 @@
 
 #include "evaluate/mesh_charts.h"
 #include "evaluate/plot.h"
+#include "io/gltf_json.h"
 #include "wrapatlas/picture.h"
 
 namespace wrapatlas {
@@ -34,23 +35,6 @@ std::vector<const MeshResult*> usable(std::span<const MeshResult> meshes) {
   return result;
 }
 
-std::string base64(const std::string& bytes) {
-  constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string out;
-  out.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const std::size_t left = std::min<std::size_t>(3, bytes.size() - i);
-    std::uint32_t word = 0;
-    for (std::size_t j = 0; j < 3; ++j) {
-      word = word << 8 | (j < left ? static_cast<unsigned char>(bytes[i + j]) : 0U);
-    }
-    for (std::size_t j = 0; j < 4; ++j) {
-      out += j <= left ? kDigits[word >> (18 - 6 * j) & 63] : '=';
-    }
-  }
-  return out;
-}
-
 Result<std::string> figure_html(const std::string& contender, const Reached& best,
                                 std::span<const Chart> charts) {
   if (!best.run || best.run->packing.placements.size() != charts.size()) {
@@ -66,7 +50,8 @@ Result<std::string> figure_html(const std::string& contender, const Reached& bes
   return fmt::format(
       "<figure><img alt=\"packed by {0}\" src=\"data:image/png;base64,{1}\"><figcaption>{0}: "
       "{2:.1f} %, {3} × {4}</figcaption></figure>\n",
-      escaped(contender), base64(*png), 100 * packing.efficiency, packing.width, packing.height);
+      escaped(contender), base64_encode(*png), 100 * packing.efficiency, packing.width,
+      packing.height);
 }
 
 }  // namespace

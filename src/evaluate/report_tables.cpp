@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 
 #include "evaluate/plot.h"
 
@@ -59,10 +60,14 @@ void add_block(Table& table, const char* title, std::span<const Summary> summari
       return beside(seconds(s.*ours), p, theirs, "{:g}");
     };
   };
-  add("best of the paper's four, % of meshes", [](const Summary& s, const PaperColumn* p) {
-    return p ? beside(percent(s.best_of_paper), p, &PaperColumn::best, "{:g}") : std::string();
-  });
-  if (summaries.size() > paper.size()) {
+  const auto of_paper = [](const Summary& s) { return is_of_paper(s.contender); };
+  if (std::count_if(summaries.begin(), summaries.end(), of_paper) == std::ssize(kSquare)) {
+    add("best of the paper's four, % of meshes", [&](const Summary& s, const PaperColumn* p) {
+      if (!of_paper(s)) return std::string();
+      return beside(percent(s.best_of_paper), p, &PaperColumn::best, "{:g}");
+    });
+  }
+  if (!std::all_of(summaries.begin(), summaries.end(), of_paper) || paper.empty()) {
     add("best of all here, %",
         [](const Summary& s, const PaperColumn*) { return percent(s.best_of_all); });
   }
@@ -87,14 +92,16 @@ std::vector<std::string> head_of(const char* first, std::span<const std::string>
 }  // namespace
 
 Table paper_table(std::span<const MeshResult> meshes, std::span<const std::string> contenders,
-                  bool all_shapes) {
+                  bool all_shapes, bool beside_paper) {
+  using Columns = std::span<const PaperColumn>;
   Table table;
   table.head = head_of("", contenders);
   if (all_shapes) {
     add_block(table, "Variable aspect ratio", summarize(meshes, contenders, Shapes::variable),
-              kVariable);
+              beside_paper ? Columns(kVariable) : Columns());
   }
-  add_block(table, "Square", summarize(meshes, contenders, Shapes::square), kSquare);
+  add_block(table, "Square", summarize(meshes, contenders, Shapes::square),
+            beside_paper ? Columns(kSquare) : Columns());
   return table;
 }
 

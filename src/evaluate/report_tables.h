@@ -19,9 +19,9 @@ struct Table {
 std::string as_html(const Table& table);
 std::string as_markdown(const Table& table);
 
-/// The paper's Table 1, its figures beside ours in brackets where it has any.
+/// The rows of the paper's Table 1; its own figures beside ours in brackets if `beside_paper`.
 Table paper_table(std::span<const MeshResult> meshes, std::span<const std::string> contenders,
-                  bool all_shapes);
+                  bool all_shapes, bool beside_paper);
 
 /// Mean efficiency in the square, a row for each kind of mesh.
 Table group_table(std::span<const MeshResult> meshes, std::span<const std::string> contenders);

@@ -46,11 +46,12 @@ def row(group, path, method, measures=None, **values):
 def by_wrapatlas(options, group, path, folder, more=()):
     """Needs of the options: wrapatlas, resolution, padding, threads, max_stretch, limit."""
     output = pathlib.Path(folder) / "unwrapped.obj"
+    packs = "--stop-after" not in more
+    packing_options = ["--resolution", options.resolution, "--padding", options.padding]
     try:
         report = json.loads(measure.run(
             [options.wrapatlas, "unwrap", str(path), "-o", str(output), "--max-stretch",
-             f"{options.max_stretch:g}", "--resolution", options.resolution, "--padding",
-             options.padding, "--threads", options.threads, "--quiet", "--json", "-", *more],
+             f"{options.max_stretch:g}", *(packing_options if packs else ()), "--threads", options.threads, "--quiet", "--json", "-", *more],
             str(path), options.limit))
         source, result = mesh_files.read(path), mesh_files.read(output)
     except (measure.Failure, ValueError) as failure:

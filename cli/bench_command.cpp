@@ -71,6 +71,13 @@ Status resolve(const CLI::App& app, BenchArguments& a) {
                                    [&](const Contender& c) { return c.name == all[i].name; });
     if (again) return usage("--methods", all[i].name + " is named twice", "name each once");
   }
+  std::vector<Method> methods;
+  for (const Contender& contender : all) methods.push_back(contender.method);
+  std::vector<Ignored> ignored = options_of_other_methods(methods);
+  ignored.push_back({"--times",
+                     std::find(methods.begin(), methods.end(), Method::guided) == methods.end(),
+                     "guided does not take part", "leave it out, or add guided to --methods"});
+  if (const Status ok = refuse_ignored(app, ignored); !ok) return ok;
   if (a.aspect != "square" && a.aspect != "search") {
     return usage("--aspect " + a.aspect, "not a choice of bench", "use square or search");
   }
@@ -169,8 +176,8 @@ Command make_bench_command(CLI::App& parser) {
   BenchArguments& a = *arguments;
   CLI::App& app = *parser.add_subcommand("bench", "Compare packers over many meshes");
   app.add_option("inputs", a.inputs,
-                 "Models, or folders of models: .obj .ply .off .stl .gltf .glb. Those without UVs "
-                 "are unwrapped first, once")
+                 "Models, or folders of models (not those in folders within): .obj .ply .off .stl "
+                 ".gltf .glb. Models without UVs are unwrapped first, once")
       ->required()
       ->type_name("PATH");
   app.add_option("-o,--output", a.output,

@@ -132,7 +132,8 @@ Status check_texcoord(int texcoord, std::span<const std::string> inputs) {
 
 Status refuse_ignored(const CLI::App& app, std::span<const Ignored> options) {
   for (const Ignored& option : options) {
-    if (option.ignored && app.count(option.option) > 0) {
+    const CLI::Option* known = app.get_option_no_throw(option.option);
+    if (option.ignored && known != nullptr && known->count() > 0) {
       return usage(option.option, option.why, option.remedy);
     }
   }

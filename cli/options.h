@@ -93,9 +93,9 @@ int threads_for(int asked);
 /// Only glTF has more than one UV set.
 Status check_texcoord(int texcoord, std::span<const std::string> inputs);
 
-/// An option that was given although nothing reads it here.
+/// An option that was given although nothing reads it here; the command may not have it at all.
 struct Ignored {
-  const char* option;
+  std::string option;
   bool ignored;
   std::string why, remedy;
 };

@@ -28,15 +28,12 @@ Command make_pack_command(CLI::App& parser) {
   add_choice(app, "--stacked", arguments->stacked, kStacked,
              "Charts that lie on each other in the input: separate them, or keep them together "
              "(they go on sharing texels)");
-  app.footer(
-      "Exit status: 0 written; 2 usage; 3 unusable input or output; 4 no packing found;\n"
-      "130 interrupted: the best packing so far was written, if there was one;\n"
-      "1 the result failed its own check, and nothing was written.\n"
-      "Examples:\n"
-      "  wrapatlas pack model.glb -o packed.glb --resolution 2048 --image atlas.png\n"
-      "  wrapatlas pack model.obj -o packed.obj --wrap none --padding 4\n"
-      "  wrapatlas pack model.obj -o packed.obj --aspect search --json -\n"
-      "  wrapatlas pack level.obj -o packed.obj --density 256 --udim");
+  app.footer(std::string(kPackExitStatus) +
+             "Examples:\n"
+             "  wrapatlas pack model.glb -o packed.glb --resolution 2048 --image atlas.png\n"
+             "  wrapatlas pack model.obj -o packed.obj --wrap none --padding 4\n"
+             "  wrapatlas pack model.obj -o packed.obj --aspect search --json -\n"
+             "  wrapatlas pack level.obj -o packed.obj --density 256 --udim");
   return {&app, [arguments, &app] { return run(app, *arguments); }};
 }
 

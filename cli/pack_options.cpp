@@ -1,6 +1,7 @@
 #include "pack_options.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -9,6 +10,8 @@
 
 namespace wrapatlas::cli {
 namespace {
+
+constexpr const char* kPackingGroup = "Packing";  ///< of options, in --help
 
 void add_promise_options(CLI::App& app, PackArguments& a) {
   add_resolution(app, a.resolution);
@@ -96,20 +99,10 @@ const MethodOption kMethodOptions[] = {
     {"--seed", {Method::guided}},
 };
 
-std::vector<Ignored> options_of_other_methods(Method method) {
-  std::vector<Ignored> ignored;
-  for (const auto& [option, methods] : kMethodOptions) {
-    ignored.push_back(
-        {option, std::find(methods.begin(), methods.end(), method) == methods.end(),
-         fmt::format("--method {} has no use for it", name_of(kMethods, method)),
-         fmt::format("leave it out, or use --method {}", name_of(kMethods, methods.front()))});
-  }
-  return ignored;
-}
-
 Status refuse_useless(const CLI::App& app, const PackArguments& a) {
   const Wrap wrap = a.options.wrap;
-  if (const Status ok = refuse_ignored(app, options_of_other_methods(a.options.method)); !ok) {
+  if (const Status ok = refuse_ignored(app, options_of_other_methods({&a.options.method, 1}));
+      !ok) {
     return ok;
   }
   const std::string no_picture = "no picture is drawn", add_picture = "add --image FILE";
@@ -203,6 +196,32 @@ void add_method_options(CLI::App& app, PackOptions& options, bool& no_inner) {
              "guided: another number, another packing. The other methods draw no random numbers");
 }
 
+std::vector<Ignored> options_of_other_methods(std::span<const Method> methods) {
+  std::vector<std::string_view> names;
+  for (const Method method : methods) names.push_back(name_of(kMethods, method));
+  const std::string why = fmt::format("{} {} no use for it", fmt::join(names, ", "),
+                                      names.size() == 1 ? "has" : "have");
+  std::vector<Ignored> ignored;
+  for (const auto& [option, readers] : kMethodOptions) {
+    ignored.push_back({option,
+                       std::find_first_of(methods.begin(), methods.end(), readers.begin(),
+                                          readers.end()) == methods.end(),
+                       why,
+                       fmt::format("leave it out, or use {}", name_of(kMethods, readers.front()))});
+  }
+  return ignored;
+}
+
+std::vector<Ignored> packing_options(const CLI::App& app, bool are_ignored, const std::string& why,
+                                     const std::string& remedy) {
+  std::vector<Ignored> ignored;
+  for (const CLI::Option* option : app.get_options()) {
+    if (option->get_group() != kPackingGroup) continue;
+    ignored.push_back({option->get_name(), are_ignored, why, remedy});
+  }
+  return ignored;
+}
+
 void add_pack_options(CLI::App& app, PackArguments& a, const char* input_help) {
   app.add_option("input", a.input, input_help)->required();
   app.add_option("-o,--output", a.output,
@@ -210,16 +229,19 @@ void add_pack_options(CLI::App& app, PackArguments& a, const char* input_help) {
                  "it is; another one gets faces and UVs")
       ->required()
       ->type_name("FILE");
+  add_texcoord(app, a.texcoord);
+  add_threads(app, a.options.threads);
+  add_output_options(app, a);
+  const std::string group = app.option_defaults()->get_group();
+  app.option_defaults()->group(kPackingGroup);
   add_choice(
       app, "--method", a.options.method, kMethods,
       "guided (the densest), modulo (Noell & Stricker 2011), or an earlier packer: these three "
       "cannot wrap");
   add_promise_options(app, a);
   add_page_options(app, a);
-  add_texcoord(app, a.texcoord);
   add_search_options(app, a);
-  add_threads(app, a.options.threads);
-  add_output_options(app, a);
+  app.option_defaults()->group(group);
 }
 
 Status resolve_pack_options(const CLI::App& app, PackArguments& a) {

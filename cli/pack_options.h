@@ -38,8 +38,21 @@ struct PackArguments {
   }
 };
 
+/// For --help.
+inline constexpr const char* kPackExitStatus =
+    "Exit status: 0 written; 2 usage; 3 unusable input or output; 4 no packing found;\n"
+    "130 interrupted: the best packing so far was written, if there was one;\n"
+    "1 the result failed its own check, and nothing was written.\n";
+
 /// How charts are tried: angles, grid and what single methods have.
 void add_method_options(CLI::App& app, PackOptions& options, bool& no_inner);
+
+/// Those that none of the methods reads.
+std::vector<Ignored> options_of_other_methods(std::span<const Method> methods);
+
+/// Those that matter only where charts are packed.
+std::vector<Ignored> packing_options(const CLI::App& app, bool are_ignored, const std::string& why,
+                                     const std::string& remedy);
 
 /// All that do not depend on where the charts come from.
 void add_pack_options(CLI::App& app, PackArguments& arguments, const char* input_help);

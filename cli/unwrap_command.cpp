@@ -96,6 +96,7 @@ int write_unpacked(const UnwrapArguments& arguments, Model& model, Unwrapping& u
     if (const Status ok = write_json(pack.json, report); !ok) return report_error(ok.error());
   }
   if (const Status ok = outputs.commit(); !ok) return report_error(ok.error());
+  if (!pack.quiet) say("{}: {:.2f} s -> {}\n", pack.input, seconds_now() - start, pack.output);
   return 0;
 }
 
@@ -113,17 +114,18 @@ Status save_heat(const UnwrapArguments& arguments, const Unwrapping& unwrapping,
                                       packing.width, packing.height, size, v_points_down));
 }
 
-/// What would be ignored, or cannot be done.
-Status check_pictures(const CLI::App& app, UnwrapArguments& arguments) {
+/// Refuses what would be ignored, or cannot be done.
+Status check_options(const CLI::App& app, UnwrapArguments& arguments) {
   const bool unpacked = arguments.last != Stage::packed;
   arguments.pack.draws_atlas = !arguments.heat.empty();
   const std::string why = "nothing is packed", remedy = "leave it out, or --stop-after";
-  const Ignored ignored[] = {
-      {"--heat", unpacked, why, remedy},
-      {"--image", unpacked, why, remedy},
-      {"--heat", arguments.pack.pages.value_or(1) != 1 || arguments.pack.density.has_value(),
-       "it shows one page", "leave it out, or --pages and --density"},
-  };
+  std::vector<Ignored> ignored = packing_options(app, unpacked, why, remedy);
+  for (const char* option : {"--heat", "--image", "--verbose"}) {
+    ignored.push_back({option, unpacked, why, remedy});
+  }
+  ignored.push_back({"--heat",
+                     arguments.pack.pages.value_or(1) != 1 || arguments.pack.density.has_value(),
+                     "it shows one page", "leave it out, or --pages and --density"});
   if (const Status ok = refuse_ignored(app, ignored); !ok) return ok;
   for (const auto& [option, path] :
        {OutputPath{"--view", arguments.view}, {"--heat", arguments.heat}}) {
@@ -138,7 +140,7 @@ Status check_pictures(const CLI::App& app, UnwrapArguments& arguments) {
 int run(const CLI::App& app, UnwrapArguments& arguments) {
   const double start = seconds_now();
   PackArguments& pack = arguments.pack;
-  if (const Status ok = check_pictures(app, arguments); !ok) return report_error(ok.error());
+  if (const Status ok = check_options(app, arguments); !ok) return report_error(ok.error());
   if (const Status ok = resolve_pack_options(app, pack); !ok) return report_error(ok.error());
   if (const Status ok = check_outputs(pack); !ok) return report_error(ok.error());
   if (arguments.hard_edges) {
@@ -147,6 +149,7 @@ int run(const CLI::App& app, UnwrapArguments& arguments) {
   arguments.options.threads = pack.options.threads;
   LoadOptions load_options;
   load_options.texcoord_set = pack.texcoord;
+  load_options.may_add_set = true;
   auto model = load_model(pack.input, load_options);
   if (!model) return report_error(model.error());
   if (const Status ok = keep_input(pack, *model); !ok) return report_error(ok.error());
@@ -161,6 +164,12 @@ int run(const CLI::App& app, UnwrapArguments& arguments) {
     for (Vec2& uv : unwrapping->mesh.texcoords) uv.y = -uv.y;
   }
   if (!pack.quiet) {
+    if (arguments.options.surface.uv_seams && model->mesh.texcoords.empty()) {
+      say("{}: note: --keep-seams keeps none: the model has no UVs\n", pack.input);
+    }
+    if (arguments.split_materials && model->face_material.empty()) {
+      say("{}: note: --split-materials cuts nowhere: the model has one material\n", pack.input);
+    }
     print_unwrap_notes(pack.input, arguments.options, *unwrapping);
     const Worst worst = worst_of(*unwrapping);
     say("{}: {} in {}, L2 stretch {:.2f} at most, L-infinity {:.1f}, {:.2f} s\n", pack.input,
@@ -211,21 +220,23 @@ Command make_unwrap_command(CLI::App& parser) {
                "Cut wherever the UVs that the model has are cut");
   app.add_flag("--split-materials", arguments->split_materials,
                "Cut between faces of different materials (OBJ, glTF)");
-  app.add_option("--view", arguments->view,
-                 "Draw the model from two sides, charts in the colours of --image")
+  app.add_option(
+         "--view", arguments->view,
+         "Draw the model from in front above and behind below, charts in the colours of --image")
       ->type_name("FILE.png");
-  app.add_option("--heat", arguments->heat,
-                 "Draw the atlas by stretch: from dark, half, to light, four times")
+  app.add_option(
+         "--heat", arguments->heat,
+         "Draw the atlas by stretch: dark blue is half (the chart is larger than the surface), "
+         "green-blue 1, green 2, yellow four times")
       ->type_name("FILE.png");
   add_choice(app, "--stop-after", arguments->last, kStages,
              "charts: write each chart as an object of its own, without UVs; flat: with UVs, but "
              "not packed; packed: all of it");
   add_pack_options(app, arguments->pack, "Model: .obj .ply .off .stl .gltf .glb");
-  app.footer(
-      "Exit status: as of wrapatlas pack.\n"
-      "Examples:\n"
-      "  wrapatlas unwrap bare.off -o unwrapped.obj --image atlas.png\n"
-      "  wrapatlas unwrap scan.ply -o scan.glb --resolution 4096 --max-stretch 1.5");
+  app.footer(std::string(kPackExitStatus) +
+             "Examples:\n"
+             "  wrapatlas unwrap bare.off -o unwrapped.obj --image atlas.png\n"
+             "  wrapatlas unwrap scan.ply -o scan.glb --resolution 4096 --max-stretch 1.5");
   return {&app, [arguments, &app] { return run(app, *arguments); }};
 }
 

@@ -21,9 +21,12 @@ void print_unwrap_notes(const std::string& input, const UnwrapOptions& options,
        "of more than two faces: the flattest pairs go on in each other");
   note(surface.shared_points, "point", "where parts of the surface touch: cut there");
   if (options.max_charts > 0 && unwrapping.charts.size() > options.max_charts) {
-    say("{}: note: no more charts could be joined: they do not touch, or would be too large or "
-        "overlap themselves\n",
-        input);
+    const bool apart = unwrapping.charts.size() == surface.components + surface.folded_faces;
+    say("{}: note: {} remain, more than --max-charts {}: {}\n", input,
+        quantity(unwrapping.charts.size(), "chart"), options.max_charts,
+        apart ? "the surface is of so many parts that do not touch"
+              : "each union left would be of over 60,000 triangles, overlap itself or be stretched "
+                "too far");
   }
 }
 

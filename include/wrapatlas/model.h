@@ -21,6 +21,9 @@ Result<FileFormat> format_from_path(const std::filesystem::path& path);
 
 struct LoadOptions {
   int texcoord_set = 0;  ///< K of TEXCOORD_K (glTF)
+  /// The set may also be the one after the last that the primitives have: the mesh has no UVs then,
+  /// and save_model adds the set (glTF; the other formats have one, which may always be missing).
+  bool may_add_set = false;
 };
 
 /// A file in memory: its mesh, and what is needed to write it back unchanged but for the UVs.

@@ -36,10 +36,10 @@ struct ViewOptions {
   std::span<const SeamEdge> seams;  ///< drawn as dark lines where they are not hidden
 };
 
-/// The mesh seen from a little above (y is up), in parallel projection, lit from the viewer; both
-/// sides of faces are shown. Preconditions: the mesh passes validate_mesh; a colour for each face.
-/// O(corners + rows of pixels that each face reaches over + pixels drawn) a view, for faces of few
-/// corners; some 100 bytes a pixel of one view.
+/// The mesh seen from a little above (y is up) and every second time from a little below, in
+/// parallel projection, lit from the viewer; both sides of faces are shown. Preconditions: the mesh
+/// passes validate_mesh; a colour for each face. O(corners + rows of pixels that each face reaches
+/// over + pixels drawn) a view, for faces of few corners; some 100 bytes a pixel of one view.
 Image draw_mesh(const Mesh& mesh, std::span<const Color> face_colors,
                 const ViewOptions& options = {});
 

@@ -64,6 +64,7 @@ Result<std::vector<fs::path>> files_of(const std::string& text) {
     if (!fs::exists(path, error)) {
       return Error{ErrorKind::input, text, "no such file or folder", "check the path"};
     }
+    if (const auto format = format_from_path(path); !format) return format.error();
     return std::vector<fs::path>{path};
   }
   std::vector<fs::path> files;

@@ -105,6 +105,8 @@ std::vector<Exhibit> worst_exhibits(std::span<const MeshResult> meshes,
   std::stable_sort(all.begin(), all.end(),
                    [&](const MeshResult* a, const MeshResult* b) { return lead(a) > lead(b); });
   for (std::size_t i = 0; i < std::min(kWorst, all.size()) && lead(all[i]) > 1e-9; ++i) {
+    const auto shown = [&](const Exhibit& exhibit) { return exhibit.mesh == all[i]; };
+    if (std::any_of(exhibits.begin(), exhibits.end(), shown)) continue;
     exhibits.push_back(
         {all[i], Shapes::square,
          fmt::format("{} is behind another by {:.1f} points", last, 100 * lead(all[i]))});

@@ -9,7 +9,7 @@
 namespace wrapatlas {
 namespace {
 
-constexpr double kLeft = 62, kRight = 620, kTop = 40, kBottom = 360, kWidth = 790, kHeight = 410;
+constexpr double kLeft = 62, kRight = 620, kTop = 56, kBottom = 376, kWidth = 790, kHeight = 426;
 
 class Scale {
  public:
@@ -122,7 +122,7 @@ std::string draw_plot(const Plot& plot) {
   svg += fmt::format("<path d=\"M{} {}V{}H{}\" fill=\"none\" stroke=\"#222\"/>\n", kLeft, kTop,
                      kBottom, kRight);
   svg += text_at((kLeft + kRight) / 2, kBottom + 38, "middle", plot.x.name);
-  svg += text_at(kLeft, kTop - 6, "start", plot.y.name, " fill=\"#555\"");
+  svg += text_at(kLeft, kTop - 10, "start", plot.y.name, " fill=\"#555\"");
   for (std::size_t i = 0; i < plot.series.size(); ++i) {
     const PlotSeries& series = plot.series[i];
     const char* color = series_color(i);

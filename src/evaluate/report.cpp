@@ -27,7 +27,8 @@ td, th { padding: 0.25rem 0.6rem; text-align: right; border-bottom: 1px solid #e
 td:first-child, th:first-child { text-align: left } th.block { padding-top: 0.9rem }
 .claims td { white-space: normal }
 .holds { color: #00664a } .fails { color: #a33c00; font-weight: bold } .note { color: #555 }
-.gallery { display: flex; flex-wrap: wrap; gap: 0.8rem } figure { margin: 0; max-width: 100% }
+.gallery { display: flex; flex-wrap: wrap; gap: 0.8rem }
+.gallery figure { margin: 0; flex: 1 1 10rem; max-width: 20rem }
 figure img { max-width: 100%; height: auto; display: block } figcaption { font-size: 0.85rem }
 svg { max-width: 100%; height: auto }
 @media print { body { max-width: none; font-size: 10pt } h2 { break-after: avoid }
@@ -241,7 +242,10 @@ class Report {
     const auto add = [&](const char* title, const std::vector<Exhibit>& exhibits) -> Status {
       const auto gallery = gallery_html(exhibits, contenders_, results_ / "charts");
       if (!gallery) return gallery.error();
-      html_ += fmt::format("<h2>{}</h2>\n{}", title, *gallery);
+      html_ += fmt::format(
+          "<h2>{}</h2>\n<p>Hatched: parts of charts that have crossed the border "
+          "and come in on the other side.</p>\n{}",
+          title, *gallery);
       return Done{};
     };
     const Status ok = add("The same charts by every packer (the paper's Figures 1 and 9 to 12)",

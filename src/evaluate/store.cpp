@@ -1,9 +1,11 @@
 #include "evaluate/store.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <tuple>
+#include <vector>
 
 #include "io/file.h"
 
@@ -24,12 +26,33 @@ Status make_folder(const fs::path& path) {
                "choose another with -o"};
 }
 
-/// "padding is 0 there, 2 here": the first value that differs.
+/// What the option that made an entry of the setting is called.
+std::string option_of(const std::string& name) {
+  if (name == "contenders") return "--methods";
+  if (name == "width" || name == "height") return "--resolution";
+  if (name == "inner") return "--no-inner";
+  if (name == "unwrap") return "--max-stretch, --unwrap";
+  std::string option = "--" + name;
+  std::replace(option.begin(), option.end(), '_', '-');
+  return option;
+}
+
+std::string in_words(const Json& value) {
+  if (value.is_string()) return value.get<std::string>();
+  if (!value.is_array()) return value.dump();
+  std::vector<std::string> contenders;
+  for (const Json& one : value) {
+    contenders.push_back(one.value("name", "?") + " (wrap " + one.value("wrap", "?") + ")");
+  }
+  return fmt::format("{}", fmt::join(contenders, ", "));
+}
+
+/// "--padding: 0 there, 2 here": the first value that differs.
 std::string difference(const Json& there, const Json& here) {
   for (const auto& [name, value] : here.items()) {
     const Json other = there.contains(name) ? there.at(name) : Json();
-    if (other != value)
-      return fmt::format("{} is {} there, {} here", name, other.dump(), value.dump());
+    if (other == value) continue;
+    return fmt::format("{}: {} there, {} here", option_of(name), in_words(other), in_words(value));
   }
   return "it is of another version";
 }

@@ -182,7 +182,7 @@ Status write_arrays(const GltfContents& contents, const GltfPlans& plans, GltfEd
           if (Status done = extender.extend(target, true); !done) return done;
         }
       }
-      if (plan.primitive->has_texcoords) {
+      if (plan.has_texcoords) {
         made.attributes[contents.texcoord_name] = add_uvs(edit, layer.uvs());
       }
     }

@@ -53,6 +53,7 @@ class GltfLayer {
 struct GltfPlan {
   const GltfPrimitive* primitive = nullptr;
   std::size_t layer = 0;
+  bool has_texcoords = false;  ///< it had them, or the atlas gives it some
   bool new_indices = false;
   std::vector<std::uint32_t> indices;  ///< of triangles; empty unless new_indices
 };

@@ -49,7 +49,7 @@ class Planner {
       const bool same_faces =
           face - first == primitive.face_count &&
           atlas_.face_begin[face] - atlas_.face_begin[first] == 3 * (face - first);
-      if (!primitive.has_texcoords && same_faces) continue;
+      if (!primitive.has_texcoords && same_faces && !gets_texcoords(first, face)) continue;
       if (Status planned = plan(primitive, first, face, same_faces); !planned) return planned;
     }
     return Done{};
@@ -80,14 +80,19 @@ class Planner {
   }
 
   [[nodiscard]] GltfUv uv_of(const GltfPrimitive& primitive, std::uint32_t corner) const {
-    if (!primitive.has_texcoords) return {};
     Vec2 uv;
     if (atlas_.corner_texcoord[corner] != kNone) {
       uv = atlas_.texcoords[atlas_.corner_texcoord[corner]];
-    } else if (atlas_.corner_source[corner] != kNone) {
+    } else if (primitive.has_texcoords && atlas_.corner_source[corner] != kNone) {
       uv = mesh_.texcoords[mesh_.corner_texcoord[atlas_.corner_source[corner]]];
     }
     return {static_cast<float>(uv.x), static_cast<float>(uv.y)};
+  }
+
+  [[nodiscard]] bool gets_texcoords(std::size_t first, std::size_t end) const {
+    const auto begin = atlas_.corner_texcoord.begin();
+    return std::any_of(begin + atlas_.face_begin[first], begin + atlas_.face_begin[end],
+                       [](std::uint32_t texcoord) { return texcoord != kNone; });
   }
 
   /// The layer for the faces: the last one with the same attributes, or a new one.
@@ -154,6 +159,7 @@ class Planner {
     GltfPlan plan;
     plan.primitive = &primitive;
     plan.layer = layer_for(primitive, first, end);
+    plan.has_texcoords = primitive.has_texcoords || gets_texcoords(first, end);
     if (!same_faces) begin_indices(plan, first, first, end);
     GltfLayer& layer = result_.layers[plan.layer];
     for (std::size_t f = first; f < end; ++f) {

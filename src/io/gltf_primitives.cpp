@@ -15,8 +15,10 @@ constexpr std::uint64_t kTriangles = 4, kFan = 6;  // 5: strip
 
 class Reader {
  public:
-  Reader(GltfContents& contents, Mesh& mesh)
+  Reader(GltfContents& contents, const LoadOptions& options, Mesh& mesh)
       : contents_(contents),
+        options_(options),
+        set_before_(fmt::format("TEXCOORD_{}", options.texcoord_set - 1)),
         file_(contents.file),
         mesh_(mesh),
         most_(std::max<std::uint64_t>(1U << 24U, 16 * contents.file.byte_count)),
@@ -50,7 +52,14 @@ class Reader {
   [[nodiscard]] Status check_texcoord_name() const {
     const bool first = contents_.texcoord_name == "TEXCOORD_0";
     if (texcoord_names_.count(contents_.texcoord_name) != 0) return Done{};
-    if (first && texcoord_names_.empty()) return Done{};
+    if (first && (texcoord_names_.empty() || options_.may_add_set)) return Done{};
+    if (options_.may_add_set && texcoord_names_.count(set_before_) != 0) {
+      if (without_set_before_ == 0) return Done{};
+      return file_.error("",
+                         fmt::format("{} would follow on {}, which {} of its primitives lack",
+                                     contents_.texcoord_name, set_before_, without_set_before_),
+                         "leave out --texcoord, or give those faces UVs first");
+    }
     if (texcoord_names_.empty()) {
       return file_.error("",
                          fmt::format("it has no {}, nor any other UVs", contents_.texcoord_name),
@@ -67,7 +76,7 @@ class Reader {
     };
     add(not_triangles_, "primitives of points or lines are left as they are");
     add(without_position_, "primitives without POSITION are left as they are");
-    if (without_texcoords_ != 0) {
+    if (without_texcoords_ != 0 && !options_.may_add_set) {
       remarks.push_back(
           fmt::format("{} faces in {} primitives have no {}: they are left as they are",
                       faces_without_texcoords_, without_texcoords_, contents_.texcoord_name));
@@ -135,6 +144,7 @@ class Reader {
       if (name == contents_.texcoord_name) texcoords = *accessor;
       if (name.starts_with("TEXCOORD_")) texcoord_names_.insert(name);
     }
+    if (attributes.find(set_before_) == attributes.end()) ++without_set_before_;
     if (Status added = add_points(*points, mesh_.positions, position_base_); !added) return added;
     primitive.first_position = position_base_[points->index];
     first_texcoord_ = kNone;
@@ -250,6 +260,8 @@ class Reader {
   }
 
   GltfContents& contents_;
+  const LoadOptions& options_;
+  std::string set_before_;  ///< the UV set that one to be added follows
   const GltfFile& file_;
   Mesh& mesh_;
   std::uint64_t most_;  ///< small files may not describe huge meshes
@@ -257,14 +269,16 @@ class Reader {
   std::uint32_t first_texcoord_ = kNone;
   std::string place_;
   std::set<std::string> texcoord_names_;  ///< of all UV sets that there are
+  std::size_t without_set_before_ = 0;    ///< primitives
   std::size_t not_triangles_ = 0, without_position_ = 0, without_texcoords_ = 0;
   std::size_t faces_without_texcoords_ = 0, ragged_ = 0, draco_ = 0, moving_texcoords_ = 0;
 };
 
 }  // namespace
 
-Status read_primitives(GltfContents& contents, Mesh& mesh, std::vector<std::string>& remarks) {
-  Reader reader(contents, mesh);
+Status read_primitives(GltfContents& contents, const LoadOptions& options, Mesh& mesh,
+                       std::vector<std::string>& remarks) {
+  Reader reader(contents, options, mesh);
   if (Status read = reader.read_all(); !read) return read;
   if (Status found = reader.check_texcoord_name(); !found) return found;
   reader.remark(remarks);

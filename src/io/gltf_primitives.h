@@ -38,7 +38,8 @@ inline Json& primitive_json(Json& json, const GltfPrimitive& primitive) {
 }
 
 /// Appends the triangles of all meshes to `mesh`, each as an object, and lists their primitives.
-Status read_primitives(GltfContents& contents, Mesh& mesh, std::vector<std::string>& remarks);
+Status read_primitives(GltfContents& contents, const LoadOptions& options, Mesh& mesh,
+                       std::vector<std::string>& remarks);
 
 /// Refuses files whose geometry is in an extension that we do not know.
 Status check_extensions(const GltfFile& file);

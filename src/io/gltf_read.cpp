@@ -54,7 +54,7 @@ Result<Model> read_gltf(std::string bytes, bool binary, std::string_view name,
   Model model;
   model.format = binary ? FileFormat::glb : FileFormat::gltf;
   model.v_points_down = true;
-  if (Status read = read_primitives(*contents, model.mesh, model.remarks); !read) {
+  if (Status read = read_primitives(*contents, options, model.mesh, model.remarks); !read) {
     return read.error();
   }
   if (model.mesh.face_count() == 0) {

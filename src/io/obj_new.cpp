@@ -1,9 +1,25 @@
 // A new OBJ file: positions, UVs, faces, each under the number of its object if there are several.
+#include <algorithm>
+#include <numeric>
+
 #include "io/file.h"
 #include "io/formats.h"
 #include "io/number.h"
 
 namespace wrapatlas {
+namespace {
+
+/// Objects one after the other: a name that came back would begin an object of its own.
+std::vector<std::uint32_t> faces_by_object(const Mesh& mesh) {
+  std::vector<std::uint32_t> faces(mesh.face_count());
+  std::iota(faces.begin(), faces.end(), 0U);
+  std::stable_sort(faces.begin(), faces.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return mesh.object_of(a) < mesh.object_of(b);
+  });
+  return faces;
+}
+
+}  // namespace
 
 Status write_new_obj(const std::filesystem::path& path, const Mesh& mesh, const AtlasMesh& atlas) {
   const Mesh applied = apply_atlas(mesh, atlas);
@@ -23,12 +39,12 @@ Status write_new_obj(const std::filesystem::path& path, const Mesh& mesh, const 
     append_float(out, uv.y);
     out += '\n';
   }
-  for (std::size_t face = 0; face < applied.face_count(); ++face) {
-    const bool is_other = face == 0 ? !applied.face_object.empty()
-                                    : applied.object_of(face) != applied.object_of(face - 1);
-    if (is_other) {
+  std::uint32_t object = kNone;  // of the last face
+  for (const std::uint32_t face : faces_by_object(applied)) {
+    if (!applied.face_object.empty() && applied.object_of(face) != object) {
+      object = applied.object_of(face);
       out += "o ";
-      append_integer(out, std::int64_t{applied.object_of(face)} + 1);
+      append_integer(out, std::int64_t{object} + 1);
       out += '\n';
     }
     out += 'f';

@@ -12,7 +12,7 @@
 namespace wrapatlas {
 namespace {
 
-constexpr double kElevation = 20 * std::numbers::pi / 180;
+constexpr double kElevation = 20 * std::numbers::pi / 180;  ///< every other view from below
 constexpr double kFirstAzimuth = 30 * std::numbers::pi / 180;
 constexpr double kFilled = 0.94;  ///< of a view's side, by the model's largest extent
 
@@ -29,11 +29,11 @@ struct Camera {
   }
 };
 
-Camera camera_at(double azimuth, const Mesh& mesh, int samples) {
+Camera camera_at(double azimuth, double elevation, const Mesh& mesh, int samples) {
   Camera camera;
   camera.right = {std::cos(azimuth), 0, -std::sin(azimuth)};
-  camera.back = {std::cos(kElevation) * std::sin(azimuth), std::sin(kElevation),
-                 std::cos(kElevation) * std::cos(azimuth)};
+  camera.back = {std::cos(elevation) * std::sin(azimuth), std::sin(elevation),
+                 std::cos(elevation) * std::cos(azimuth)};
   camera.up = cross(camera.back, camera.right);
   Vec3 low{1e300, 1e300, 1e300}, high{-1e300, -1e300, -1e300};
   for (const std::uint32_t i : mesh.corner_position) {  // points that no face uses are not seen
@@ -149,7 +149,8 @@ Image draw_mesh(const Mesh& mesh, std::span<const Color> face_colors, const View
     Canvas canvas(size);
     if (mesh.face_count() > 0) {
       const double azimuth = kFirstAzimuth + 2 * std::numbers::pi * view / views;
-      const Camera camera = camera_at(azimuth, mesh, size * kSamplesAcross);
+      const double elevation = view % 2 == 0 ? kElevation : -kElevation;
+      const Camera camera = camera_at(azimuth, elevation, mesh, size * kSamplesAcross);
       canvas.draw(mesh, face_colors, camera);
       canvas.draw_seams(options.seams, camera);
     }

@@ -125,7 +125,7 @@ class Bench(BenchTest):
         self.sample("coral.glb")
         self.bench("coral.glb", "-o", "r", *QUICK, "--methods", "lprm02")
         before = self.timeless()
-        self.refuse(2, ("r", "padding is 1.0 there, 3.0 here"), "bench", "coral.glb", "-o", "r",
+        self.refuse(2, ("r", "--padding: 1.0 there, 3.0 here"), "bench", "coral.glb", "-o", "r",
                     *QUICK[:-4], "--padding", 3, "--rotations", 4, "--methods", "lprm02")
         self.assertEqual(self.timeless(), before)
         (self.folder / "other").mkdir()
@@ -136,6 +136,7 @@ class Bench(BenchTest):
         self.sample("coral.glb")
         shutil.copy(self.path("coral.glb"), self.path("coral.gltf"))
         (self.folder / "empty").mkdir()
+        self.write("junk.xyz", "1 2 3\n")
         for words, arguments in (
                 (("none.obj", "no such file"), ("none.obj",)),
                 (("empty", "without models"), ("empty",))):
@@ -145,9 +146,14 @@ class Bench(BenchTest):
                 (("swg04", "no such method"), ("coral.glb", "--methods", "swg04")),
                 (("lprm02 is named twice",), ("coral.glb", "--methods", "lprm02,lprm02")),
                 (("--times", "x"), ("coral.glb", "--times", "x")),
+                (("junk.xyz",), ("junk.xyz",)),
+                (("--seed", "lprm02, swg03 have no use"),
+                 ("coral.glb", "--methods", "lprm02,swg03", "--seed", 3)),
+                (("--times", "guided"), ("coral.glb", "--methods", "modulo", "--times", 3)),
                 (("--aspect", "2:1"), ("coral.glb", "--aspect", "2:1")),
                 (("--resolution",), ("coral.glb", "--aspect", "search", "--resolution", "64x32"))):
             self.refuse(2, words, "bench", *arguments, "-o", "r")
+            self.assertFalse(self.path("r").exists())
         self.refuse(3, ("coral.glb",), "report", "coral.glb", "-o", "page")
         self.refuse(3, ("empty", "no results"), "report", "empty", "-o", "page")
 

@@ -85,6 +85,19 @@ class ValidatorTest(support.CommandTest):
             self.pack("a.glb", names[-1], "--texcoord", "1", "--export", export)
         self.validate(*names)
 
+    def test_uv_sets_that_unwrap_adds(self):
+        makers = {"plain": gltf_maker.plain, "skinned": gltf_maker.skinned,
+                  "textured": gltf_maker.textured, "two": gltf_maker.two_uv_sets}
+        names = []
+        for name, make in makers.items():
+            self.write(f"{name}.glb", make().glb())
+            names.append(f"{name}_more.glb")
+            self.succeed("unwrap", f"{name}.glb", "-o", names[-1], "--time", 0, "--texcoord",
+                         2 if name == "two" else 1)
+        self.succeed("unwrap", self.sample("knot.off"), "-o", "bare.glb", "--stop-after", "charts")
+        self.succeed("unwrap", "bare.glb", "-o", "first.glb", "--time", 0)
+        self.validate(*names, "bare.glb", "first.glb")
+
     def test_samples_and_other_formats(self):
         names = []
         for source in support.PACKABLE:

@@ -109,8 +109,10 @@ class Unwrap(support.CommandTest):
         source = self.sample("knot.off")
         report = self.report("unwrap", source, "-o", "a.obj", "--quiet", "--stop-after", "charts")
         text = self.path("a.obj").read_text()
-        objects = {line for line in obj_lines(text, "o")}
+        objects = obj_lines(text, "o")  # one run of faces each
         self.assertEqual(len(objects), report["charts"])
+        self.assertEqual(len(set(objects)), report["charts"])
+        self.assertEqual(len(obj_lines(text, "f")), report["faces"])
         self.assertEqual(obj_lines(text, "vt"), [])
         report = self.report("unwrap", source, "-o", "b.obj", "--quiet", "--stop-after", "flat")
         self.assertNotIn("efficiency", report)
@@ -118,6 +120,34 @@ class Unwrap(support.CommandTest):
         self.assertEqual(info["count"], report["charts"])
         self.assertEqual(info["stacked"], 0)
         self.assertEqual(info["self_overlapping"], 0)
+        for option in (("--resolution", 64), ("--method", "modulo"), ("--udim",), ("--time", 1)):
+            self.refuse(2, (option[0], "nothing is packed"), "unwrap", source, "-o", "c.obj",
+                        "--stop-after", "flat", *option)
+        told = self.call("unwrap", source, "-o", "c.obj", "--stop-after", "flat")
+        self.assertIn("-> c.obj", told.stderr)
+
+    def test_a_gltf_without_uvs_gets_them(self):
+        for name in ("bare.glb", "bare.gltf"):
+            self.succeed("unwrap", self.sample("knot.off"), "-o", name, "--stop-after", "charts")
+            self.assertIsNone(self.report("info", name)["charts"])
+            report = self.unwrap(name, "a" + name)
+            charts = self.report("info", "a" + name)["charts"]
+            self.assertEqual(charts["count"], report["charts"])
+            self.assertEqual(charts["faces_without_uv"], 0)
+            self.check_alone("a" + name, report)
+
+    def test_adds_a_uv_set(self):
+        bare, coral = "bare.glb", self.sample("coral.glb")
+        self.write("a.obj", CUBE)
+        self.unwrap("a.obj", bare)
+        report = self.unwrap(bare, "two.glb", "--texcoord", 1)
+        self.assertEqual(self.report("info", "two.glb", "--texcoord", 1)["charts"]["count"],
+                         report["charts"])
+        self.assertEqual(self.report("info", "two.glb")["charts"],
+                         self.report("info", bare)["charts"])
+        self.refuse(3, ("coral.glb", "TEXCOORD_2"), "unwrap", coral, "-o", "c.glb",
+                    "--texcoord", 2)
+        self.refuse(3, ("coral.glb", "TEXCOORD_1"), "pack", coral, "-o", "c.glb", "--texcoord", 1)
 
     def test_broken_surfaces_are_mended_and_told(self):
         two = "f 1 2 3\nf 1 3 2\n"  # one face and its back
@@ -147,7 +177,14 @@ class Unwrap(support.CommandTest):
                    "f 1 2 3\nf 4 5 6\n")
         done = self.call("unwrap", "a.obj", "-o", "b.obj", "--max-charts", 1, "--time", 0)
         self.assertEqual(done.returncode, 0)
-        self.assertRegex(done.stderr, "note: no more charts could be joined")
+        self.assertRegex(done.stderr, "note: 2 charts remain, more than --max-charts 1: .*parts")
+
+    def test_says_when_an_option_cuts_nothing(self):
+        self.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+        done = self.call("unwrap", "a.obj", "-o", "b.obj", "--keep-seams", "--split-materials",
+                         "--time", 0)
+        self.assertIn("--keep-seams keeps none", done.stderr)
+        self.assertIn("--split-materials cuts nowhere", done.stderr)
 
     def test_same_bytes_for_any_number_of_threads(self):
         source = self.sample("knot.off")

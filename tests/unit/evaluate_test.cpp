@@ -202,7 +202,7 @@ TEST_F(StoreTest, KeepsMeshesOfOneSetting) {
   const auto other = Store::open(folder_, setting);
   ASSERT_FALSE(other);
   EXPECT_EQ(other.error().kind, ErrorKind::usage);
-  EXPECT_NE(other.error().what.find("padding is 2.0 there, 5.0 here"), std::string::npos);
+  EXPECT_NE(other.error().what.find("--padding: 2.0 there, 5.0 here"), std::string::npos);
 }
 
 TEST_F(StoreTest, LeavesOtherFoldersAlone) {

@@ -13,6 +13,7 @@ import numpy
 import spyrrow
 
 TRIES = 5
+LATER_TRIES = 3  # where those found no square
 
 
 def outline_of(charts, triangles):
@@ -54,7 +55,9 @@ def pack(charts, padding, seconds=20.0, seed=0, threads=2, **_):
     side = charts.resolution / math.sqrt(0.75)
     best, total = None, 0.0
     low, high = charts.resolution, 4.0 * charts.resolution
-    for _ in range(TRIES):
+    for number in range(TRIES + LATER_TRIES):
+        if best is not None and number >= TRIES:
+            break
         begin = time.monotonic()
         solution = solved(outlines, side, padding * side / charts.resolution, seconds / TRIES, seed,
                           threads)
@@ -65,8 +68,9 @@ def pack(charts, padding, seconds=20.0, seed=0, threads=2, **_):
             best = (solution, side, took)
         else:
             low = max(low, side)
-        # The strip's area changes little with its height: aim at where it would be a square.
-        aim = math.sqrt(solution.width * side)
+        # The strip's area changes little with its height: aim at where it would be a square, and a
+        # little above while there is none.
+        aim = math.sqrt(solution.width * side) * (1 if best is not None else 1.01)
         side = aim if low < aim < high else (low + high) / 2
         if high - low < 1e-3 * high:
             break

@@ -61,7 +61,12 @@ def arguments():
     measure.add_options(parser)
     parser.add_argument("--guided-stride", type=int, default=4,
                         help="the table with guided takes every so many files; default 4")
-    return parser.parse_args()
+    parser.add_argument("--only", default="", help="the tables whose title has this in it")
+    options = parser.parse_args()
+    options.tables = {title: rows for title, rows in TABLES.items() if options.only in title}
+    if not options.tables:
+        parser.error(f"no table has {options.only!r} in its title: {'; '.join(TABLES)}")
+    return options
 
 
 def measured(options, files, more, folder):
@@ -80,7 +85,7 @@ def main():
     options = arguments()
     measure.print_origin(options, f"guided stride {options.guided_stride}; resolution and padding "
                          "as each table says")
-    for title, variants in TABLES.items():
+    for title, variants in options.tables.items():
         files = options.files
         if any("guided" in more for _, more in variants):
             files = files[::options.guided_stride]

@@ -4,7 +4,9 @@
 #   fmt             core   numbers to text and error lines, as std::format is not in g++ 12   [MIT]
 #   Eigen           core   in which order to eliminate (AMD), for sparse systems; headers    [MPL2]
 #   nlohmann-json   io     glTF's JSON, with unknown members kept in their order, and --json  [MIT]
-#   libspng         io     PNG out                                                          [BSD-2]
+#   Embree          bake   rays and nearest points on meshes                             [Apache-2]
+#   libspng         io     PNG in and out                                                   [BSD-2]
+#   libjpeg-turbo   io     JPEG in                                                          [BSD-3]
 #   CLI11           cli    command line, that of bench too                                  [BSD-3]
 #   GoogleTest      tests                                                                   [BSD-3]
 
@@ -22,9 +24,16 @@ wrapatlas_find(fmt::fmt fmt)
 wrapatlas_find(Eigen3::Eigen Eigen3 3.3 NO_MODULE)
 wrapatlas_find(nlohmann_json::nlohmann_json nlohmann_json 3.10)
 
+if(WRAPATLAS_BAKE)
+  wrapatlas_find(embree embree 3)
+endif()
+
+find_package(PkgConfig REQUIRED)
 if(NOT TARGET PkgConfig::WRAPATLAS_SPNG)
-  find_package(PkgConfig REQUIRED)
   pkg_check_modules(WRAPATLAS_SPNG REQUIRED IMPORTED_TARGET GLOBAL spng)
+endif()
+if(NOT TARGET PkgConfig::WRAPATLAS_TURBOJPEG)
+  pkg_check_modules(WRAPATLAS_TURBOJPEG REQUIRED IMPORTED_TARGET GLOBAL libturbojpeg)
 endif()
 
 if(WRAPATLAS_CLI OR WRAPATLAS_BENCH)

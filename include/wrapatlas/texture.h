@@ -64,8 +64,8 @@ MipMaps make_mip_maps(Texture texture, MipFilter filter);
 TextureValue sample_trilinear(const MipMaps& maps, Vec2 uv, double level, Wrap wrap);
 
 /// Gives every texel outside the mask the value of the one inside that is nearest (Euclidean, from
-/// centre to centre; over the border on axes that wrap; the first of equals in row order of ties).
-/// An empty mask leaves all as it is. O(texels).
+/// centre to centre; over the border on axes that wrap; which of equals is not said, but always the
+/// same). With none inside all stays as it is. O(texels).
 void dilate(Texture& texture, const TexelMask& inside, Wrap wrap);
 
 /// sRGB and linear light, both in [0, 1] (IEC 61966-2-1); outside it they go on alike.

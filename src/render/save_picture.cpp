@@ -1,47 +1,14 @@
-#include <spng.h>
-
 #include <algorithm>
 #include <cctype>
-#include <cstdlib>
-#include <memory>
 
 #include "io/file.h"
+#include "io/image_codecs.h"
 #include "wrapatlas/picture.h"
 
 namespace wrapatlas {
-namespace {
-
-Error png_error(std::string what) {
-  return {ErrorKind::output, "", std::move(what), "draw it at another size"};
-}
-
-}  // namespace
 
 Result<std::string> encode_png(const Image& image) {
-  const std::size_t expected =
-      std::size_t{3} * std::max(0, image.width) * std::max(0, image.height);
-  if (expected == 0 || image.rgb.size() != expected) {
-    return png_error("the image has no pixels, or not as many as its size says");
-  }
-  const std::unique_ptr<spng_ctx, decltype(&spng_ctx_free)> context(spng_ctx_new(SPNG_CTX_ENCODER),
-                                                                    &spng_ctx_free);
-  if (!context) return png_error("out of memory");
-  spng_ihdr header{};
-  header.width = static_cast<std::uint32_t>(image.width);
-  header.height = static_cast<std::uint32_t>(image.height);
-  header.color_type = SPNG_COLOR_TYPE_TRUECOLOR;
-  header.bit_depth = 8;
-  int failure = spng_set_option(context.get(), SPNG_ENCODE_TO_BUFFER, 1);
-  if (failure == 0) failure = spng_set_ihdr(context.get(), &header);
-  if (failure == 0) {
-    failure = spng_encode_image(context.get(), image.rgb.data(), image.rgb.size(), SPNG_FMT_PNG,
-                                SPNG_ENCODE_FINALIZE);
-  }
-  std::size_t size = 0;
-  const std::unique_ptr<void, decltype(&std::free)> bytes(
-      failure == 0 ? spng_get_png_buffer(context.get(), &size, &failure) : nullptr, &std::free);
-  if (!bytes) return png_error(std::string("cannot encode PNG: ") + spng_strerror(failure));
-  return std::string(static_cast<const char*>(bytes.get()), size);
+  return encode_pixels({image.width, image.height, 3, 8}, image.rgb);
 }
 
 Status save_png(const std::filesystem::path& path, const Image& image) {

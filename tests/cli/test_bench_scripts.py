@@ -59,6 +59,17 @@ class BenchScripts(CommandTest):
                         "again.svg"], cwd=self.folder, check=True, capture_output=True)
         self.assertEqual(self.path("again.svg").read_text(), drawn)
 
+    def test_ablation(self):
+        self.sample("coral.glb")
+        done = self.script("ablation.py", "coral.glb", "--only", "the paper's setting")
+        rows = [line for line in done.stdout.splitlines() if line.startswith("| ")]
+        self.assertEqual(len(rows), 1 + 10)
+        self.assertRegex(rows[1], r"\| as printed \| 0\.\d+ \| \+0\.0 \| 0/0 \|")
+        efficiency = {row.split("|")[1].strip(): float(row.split("|")[2]) for row in rows[1:]}
+        self.assertLess(efficiency["4 rotations"], efficiency["64 rotations"])
+        self.assertIn("no table has", self.script("ablation.py", "coral.glb", "--only", "nothing",
+                                                  status=2).stderr)
+
     def test_a_failed_check_ends_them(self):
         self.write("charts.obj", photogrammetry.photogrammetry(6))
         for name, *arguments in (("jigsaws.py", "--pieces", "4", "--time", "0"),

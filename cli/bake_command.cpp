@@ -1,0 +1,275 @@
+// wrapatlas bake: what a detailed mesh looks like, as textures on the atlas of a simpler one.
+
+#include "wrapatlas/bake.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numbers>
+
+#include "common.h"
+#include "io/file.h"
+#include "options.h"
+#include "output_paths.h"
+#include "wrapatlas/model.h"
+
+namespace wrapatlas::cli {
+namespace {
+
+constexpr Named<BakedMap> kBakedMaps[] = {{"tangent", BakedMap::tangent_normals},
+                                          {"object", BakedMap::object_normals},
+                                          {"position", BakedMap::positions},
+                                          {"occlusion", BakedMap::occlusion},
+                                          {"color", BakedMap::color}};
+
+struct BakeArguments {
+  std::string low, high, output, color, json;
+  BakedMap map = BakedMap::tangent_normals;
+  std::vector<std::string> also;  ///< "KIND=FILE"
+  Resolution resolution;
+  std::optional<double> hard_edges, high_hard_edges;  ///< degrees
+  int bits = 8, texcoord = 0;
+  bool mips = false, quiet = false;
+  BakeOptions options;
+  std::vector<BakedMap> maps;
+  std::vector<OutputPath> outputs;  ///< of the maps, in their order
+};
+
+/// Fills maps and outputs.
+Status resolve_maps(BakeArguments& a) {
+  a.maps = {a.map};
+  a.outputs = {{"-o", a.output}};
+  for (const std::string& text : a.also) {
+    const std::size_t equals = text.find('=');
+    const auto kind = value_of(kBakedMaps, text.substr(0, equals));
+    if (equals == std::string::npos || !kind || equals + 1 == text.size()) {
+      return usage("--also " + text, "not a kind of map and a file",
+                   "give e.g. occlusion=ao.png; kinds are those of --map");
+    }
+    if (std::find(a.maps.begin(), a.maps.end(), *kind) != a.maps.end()) {
+      return usage("--also " + text, "this map is asked for twice", "name each once");
+    }
+    a.maps.push_back(*kind);
+    a.outputs.push_back({"--also", text.substr(equals + 1)});
+  }
+  for (const OutputPath& output : a.outputs) {
+    if (!output.path.ends_with(".png")) {
+      return usage(output.path, "maps are written as PNG", "end the name in .png");
+    }
+  }
+  return Done{};
+}
+
+Status resolve(const CLI::App& app, BakeArguments& a) {
+  if (const Status ok = resolve_maps(a); !ok) return ok;
+  const auto has = [&](BakedMap map) {
+    return std::find(a.maps.begin(), a.maps.end(), map) != a.maps.end();
+  };
+  const bool color = has(BakedMap::color), occlusion = has(BakedMap::occlusion);
+  if (color && a.color.empty()) {
+    return usage("--map color", "there is no texture to take it from", "give --color-from FILE");
+  }
+  const Ignored ignored[] = {
+      {"--color-from", !color, "no colour is baked", "add --map color"},
+      {"--occlusion-rays", !occlusion, "no occlusion is baked", "add --map occlusion"},
+      {"--occlusion-distance", !occlusion, "no occlusion is baked", "add --map occlusion"},
+  };
+  if (const Status ok = refuse_ignored(app, ignored); !ok) return ok;
+  if (a.bits != 8 && a.bits != 16) {
+    return usage(fmt::format("--bits {}", a.bits), "PNG has no such values", "give 8 or 16");
+  }
+  constexpr double kDegree = std::numbers::pi / 180;
+  if (a.hard_edges) a.options.hard_angle = *a.hard_edges * kDegree;
+  if (a.high_hard_edges) a.options.high_hard_angle = *a.high_hard_edges * kDegree;
+  a.options.width = a.resolution.width;
+  a.options.height = a.resolution.height;
+  a.options.threads = threads_for(a.options.threads);
+  return check_texcoord(a.texcoord, std::span(&a.low, 1));
+}
+
+Status check_files(const BakeArguments& a, const Model& low, const Model& high) {
+  std::vector<OutputPath> outputs = a.outputs;
+  outputs.push_back({"--json", a.json});
+  if (const Status ok = refuse_equal_outputs(outputs); !ok) return ok;
+  if (const Status ok = refuse_overwriting(a.low, low, outputs); !ok) return ok;
+  if (const Status ok = refuse_overwriting(a.high, high, outputs); !ok) return ok;
+  for (const OutputPath& output : outputs) {
+    if (output.path.empty() || output.path == "-") continue;
+    if (!a.color.empty() && same_file(output.path, a.color)) {
+      return usage(output.path, "it would overwrite --color-from", "give another name");
+    }
+    if (const Status ok = check_writable(output.path); !ok) return ok;
+  }
+  return Done{};
+}
+
+MipFilter filter_of(BakedMap map) {
+  if (map == BakedMap::color) return MipFilter::srgb;
+  return map == BakedMap::positions || map == BakedMap::occlusion ? MipFilter::mean
+                                                                  : MipFilter::normals;
+}
+
+/// "map.png" -> "map.3.png"
+std::string level_path(const std::string& path, std::size_t level) {
+  return fmt::format("{}.{}.png", path.substr(0, path.size() - 4), level);
+}
+
+Status save_map(const BakeArguments& a, std::size_t number, Texture& texture) {
+  const std::string& path = a.outputs[number].path;
+  const BakedMap map = a.maps[number];
+  if (map == BakedMap::color) linear_to_srgb(texture);
+  if (!a.mips) return save_texture(path, texture, a.bits);
+  const MipMaps maps = make_mip_maps(std::move(texture), filter_of(map));
+  for (std::size_t level = 0; level < maps.levels.size(); ++level) {
+    const std::string name = level == 0 ? path : level_path(path, level);
+    if (const Status ok = save_texture(name, maps.levels[level], a.bits); !ok) return ok;
+  }
+  return Done{};
+}
+
+Json report_of(const BakeArguments& a, const BakeResult& result, double seconds, double baking) {
+  Json maps = Json::array();
+  for (std::size_t i = 0; i < a.maps.size(); ++i) {
+    maps.push_back({{"kind", name_of(kBakedMaps, a.maps[i])}, {"file", a.outputs[i].path}});
+  }
+  return {{"version", WRAPATLAS_VERSION},
+          {"command", "bake"},
+          {"low", a.low},
+          {"high", a.high},
+          {"maps", maps},
+          {"width", a.options.width},
+          {"height", a.options.height},
+          {"wrap", name_of(kWraps, a.options.wrap)},
+          {"samples", a.options.samples},
+          {"bits", a.bits},
+          {"distance", result.distance},
+          {"texels_used", result.texels_used},
+          {"texels_nearest", result.texels_nearest},
+          {"faces_without_uv", result.faces_without_uv},
+          {"position_origin", {result.low_corner.x, result.low_corner.y, result.low_corner.z}},
+          {"position_extent", result.extent},
+          {"threads", a.options.threads},
+          {"seconds", {{"total", seconds}, {"bake", baking}}},
+          {"peak_memory_mb", peak_memory_mb()}};
+}
+
+void summarize(const BakeArguments& a, const BakeResult& result, double seconds) {
+  const std::size_t all = std::size_t{1} * a.options.width * a.options.height;
+  if (result.faces_without_uv > 0) {
+    say("{}: note: {} no UVs, or none of any area, and {} baked\n", a.low,
+        quantity(result.faces_without_uv, "face has", "faces have"),
+        result.faces_without_uv == 1 ? "is not" : "are not");
+  }
+  if (result.texels_nearest > 0) {
+    say("{}: note: at {} no ray met {} within {:.4g}; they show its nearest point\n", a.low,
+        quantity(result.texels_nearest, "texel"), a.high, result.distance);
+  }
+  say("{}: {} x {} texels, {:.1f} % of them in use, {:.2f} s -> {}\n", a.low, a.options.width,
+      a.options.height, 100.0 * double(result.texels_used) / double(all), seconds, a.output);
+}
+
+int run(const CLI::App& app, BakeArguments& a) {
+  const double start = seconds_now();
+  if (const Status ok = resolve(app, a); !ok) return report_error(ok.error());
+  LoadOptions low_options;
+  low_options.texcoord_set = a.texcoord;
+  const auto low = load_model(a.low, low_options);
+  if (!low) return report_error(low.error());
+  const auto high = load_model(a.high);
+  if (!high) return report_error(high.error());
+  if (const Status ok = check_files(a, *low, *high); !ok) return report_error(ok.error());
+  BakeSource source{&high->mesh, nullptr, high->v_points_down};
+  Texture color;
+  if (!a.color.empty()) {
+    auto loaded = load_texture(a.color);
+    if (!loaded) return report_error(loaded.error());
+    color = std::move(*loaded);
+    srgb_to_linear(color);
+    source.color = &color;
+  }
+  a.options.v_points_down = low->v_points_down;
+  catch_interrupts();
+  const double bake_start = seconds_now();
+  auto result = [&] {
+    ProgressLine line(!a.quiet);
+    a.options.progress = [&line](double share) {
+      line.show(fmt::format("baking {:3.0f} %", 100 * share));
+      return !interrupted();
+    };
+    return bake(low->mesh, source, a.maps, a.options);
+  }();
+  if (!result) {
+    Error error = result.error();
+    if (error.kind == ErrorKind::interrupted)
+      error = {error.kind, a.low, "stopped", "nothing was written"};
+    if (error.where == "low mesh") error.where = a.low;
+    if (error.where == "high mesh") error.where = a.high;
+    return report_error(error);
+  }
+  const double baking = seconds_now() - bake_start;
+  OutputTransaction outputs;
+  for (std::size_t i = 0; i < a.maps.size(); ++i) {
+    if (const Status ok = save_map(a, i, result->maps[i]); !ok) return report_error(ok.error());
+  }
+  const double seconds = seconds_now() - start;
+  if (!a.json.empty()) {
+    if (const Status ok = write_json(a.json, report_of(a, *result, seconds, baking)); !ok) {
+      return report_error(ok.error());
+    }
+  }
+  if (const Status ok = outputs.commit(); !ok) return report_error(ok.error());
+  if (!a.quiet) summarize(a, *result, seconds);
+  return 0;
+}
+
+}  // namespace
+
+Command make_bake_command(CLI::App& parser) {
+  auto arguments = std::make_shared<BakeArguments>();
+  BakeArguments& a = *arguments;
+  CLI::App& app =
+      *parser.add_subcommand("bake", "Write a detailed mesh into the atlas of a simpler one");
+  app.add_option("low", a.low, "Model with an atlas: .obj .ply .off .gltf .glb")->required();
+  app.add_option("high", a.high, "Model to be baked: .obj .ply .off .stl .gltf .glb")->required();
+  app.add_option("-o,--output", a.output, "Where to write the map")
+      ->required()
+      ->type_name("FILE.png");
+  add_choice(app, "--map", a.map, kBakedMaps,
+             "tangent: normals along tangents as MikkTSpace makes them, green up; object: normals "
+             "along the model's axes; position; occlusion: how much of the sky is seen; color: of "
+             "--color-from");
+  app.add_option("--also", a.also,
+                 "Another map in the same run, e.g. occlusion=ao.png; may be repeated")
+      ->type_name("KIND=FILE.png");
+  add_resolution(app, a.resolution);
+  add_choice(app, "--wrap", a.options.wrap, kWraps,
+             "Axes on which the atlas repeats, as it was packed");
+  add_number(app, "--bits", a.bits, {8, 16, "bits"}, "Of each value in the file: 8 or 16");
+  add_number(app, "--samples", a.options.samples, {1, 16},
+             "A texel is the mean of so many, squared");
+  add_number(app, "--distance", a.options.distance, {0, 1e30},
+             "How far from the low model the high one is looked for, along the normal and back, in "
+             "units of the files; 0: twice the largest distance between them");
+  add_number(app, "--hard-edges", a.hard_edges, {0, 180, "degrees"},
+             "The low model's normals end at edges whose faces differ by more. Default: smooth");
+  add_number(app, "--high-hard-edges", a.high_hard_edges, {0, 180, "degrees"},
+             "The same of the high model; 0: its faces are flat");
+  app.add_option("--color-from", a.color, "Texture of the high model, PNG or JPEG, sRGB")
+      ->type_name("FILE");
+  add_number(app, "--occlusion-rays", a.options.occlusion_rays, {1, 65536}, "Rays of each sample");
+  add_number(app, "--occlusion-distance", a.options.occlusion_distance, {0, 1e30},
+             "What is farther away hides nothing, in units of the files; 0: no end");
+  app.add_flag("--mips", a.mips, "Write the smaller levels too, as MAP.1.png, MAP.2.png, ...");
+  add_texcoord(app, a.texcoord);
+  add_threads(app, a.options.threads);
+  add_json(app, a.json);
+  app.add_flag("--quiet", a.quiet, "No progress, no summary, no notes");
+  app.footer(
+      "Exit status: 0 written; 2 usage; 3 unusable input or output; 130 interrupted.\n"
+      "Examples:\n"
+      "  wrapatlas bake low.glb scan.ply -o normal.png --resolution 2048\n"
+      "  wrapatlas bake low.obj scan.ply -o n.png --map object --bits 16 --also occlusion=ao.png");
+  return {&app, [arguments, &app] { return run(app, *arguments); }};
+}
+
+}  // namespace wrapatlas::cli

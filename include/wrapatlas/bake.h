@@ -1,0 +1,67 @@
+// Baking: what a detailed mesh looks like, written into the atlas of a simpler one.
+#pragma once
+
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "wrapatlas/mesh.h"
+#include "wrapatlas/result.h"
+#include "wrapatlas/texture.h"
+
+namespace wrapatlas {
+
+enum class BakedMap {
+  object_normals,   ///< n in the meshes' own axes, as (n + 1) / 2
+  tangent_normals,  ///< n along tangent, bitangent, normal of tangent_frames, as (n + 1) / 2
+  positions,        ///< (p - BakeResult::low_corner) / BakeResult::extent
+  occlusion,        ///< share of the sky that is seen: 1 is free, 0 is closed in; one channel
+  color,            ///< BakeSource::color, averaged as it is
+};
+
+struct BakeOptions {
+  int width = 1024, height = 1024;  ///< texels, 1 to 65536
+  Wrap wrap = Wrap::uv;             ///< axes on which the atlas repeats; elsewhere what is outside
+                                    ///< [0, 1] is not baked
+  bool v_points_down = false;       ///< of the low mesh's UVs, as Model has it
+  int samples = 2;  ///< a texel is the mean of so many, squared; those on charts count; 1 to 16
+  /// How far from the low mesh the high one is looked for along the normal, in the meshes' units;
+  /// 0: twice the largest distance of a corner or a middle of a low face to the high mesh.
+  double distance = 0;
+  double hard_angle = -1;         ///< radians: where the low mesh's normals end, see smooth_normals
+  double high_hard_angle = -1;    ///< the same of the high mesh
+  int occlusion_rays = 64;        ///< of each sample; 1 to 65536
+  double occlusion_distance = 0;  ///< what is farther away hides nothing; 0: no end
+  int threads = 0;                ///< 0: as many as there are; the result does not depend on it
+  std::function<bool(double)>
+      progress;  ///< the share that is done; false: stop. One call at a time
+};
+
+/// What is baked from.
+struct BakeSource {
+  const Mesh* mesh = nullptr;
+  const Texture* color = nullptr;  ///< on the mesh's UVs, repeating
+  bool v_points_down = false;
+};
+
+struct BakeResult {
+  std::vector<Texture> maps;    ///< as asked for; every texel has a value, by dilation if need be
+  TexelMask inside;             ///< texels that any sample on a chart fell into
+  std::size_t texels_used = 0;  ///< of them
+  std::size_t texels_nearest = 0;  ///< of them: no ray met the high mesh, so the nearest point did
+  std::size_t faces_without_uv = 0;  ///< of the low mesh: none, or of no area
+  double distance = 0;               ///< BakeOptions::distance in force
+  Vec3 low_corner;                   ///< of both meshes' box
+  double extent = 1;                 ///< its longest side
+};
+
+/// Each sample of a texel lies on a triangle of the low mesh and looks along its smoothed normal,
+/// both ways, for the nearest place of the high mesh that faces the same way; where there is none
+/// within the distance, it takes the nearest point. Texels up to one and a half from a chart
+/// continue it beyond its border; all others get the value of the nearest (dilate). Where charts
+/// overlap, the first face counts. Both meshes pass validate_mesh. Errors: usage (options, a map
+/// without its source), input (no faces, no UVs), output (Embree), interrupted.
+Result<BakeResult> bake(const Mesh& low, const BakeSource& high, std::span<const BakedMap> maps,
+                        const BakeOptions& options = {});
+
+}  // namespace wrapatlas

@@ -1,0 +1,286 @@
+// From a texel to a place of the low mesh, from there to the high one, and back with what is there.
+#include "wrapatlas/bake.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <mutex>
+
+#include "bake/high_surface.h"
+#include "bake/low_surface.h"
+#include "bake/texel_samples.h"
+#include "mesh/triangulate.h"
+#include "threads/parallel.h"
+
+namespace wrapatlas {
+namespace {
+
+constexpr int kMostSide = 65536;
+
+Error usage(const char* where, const char* what, const char* remedy) {
+  return {ErrorKind::usage, where, what, remedy};
+}
+
+Status check_options(const BakeSource& high, std::span<const BakedMap> maps, const BakeOptions& o) {
+  if (o.width < 1 || o.height < 1 || o.width > kMostSide || o.height > kMostSide) {
+    return usage("size", "a side is not from 1 to 65536 texels", "choose another");
+  }
+  if (o.samples < 1 || o.samples > 16) return usage("samples", "not from 1 to 16", "2 is usual");
+  if (!(o.distance >= 0) || !(o.occlusion_distance >= 0)) {
+    return usage("distance", "less than 0", "0 chooses one");
+  }
+  if (o.occlusion_rays < 1 || o.occlusion_rays > 65536) {
+    return usage("occlusion rays", "not from 1 to 65536", "64 is usual");
+  }
+  if (maps.empty()) return usage("maps", "there are none to bake", "name one");
+  for (std::size_t i = 0; i < maps.size(); ++i) {
+    if (std::find(maps.begin(), maps.begin() + static_cast<std::ptrdiff_t>(i), maps[i]) !=
+        maps.begin() + static_cast<std::ptrdiff_t>(i)) {
+      return usage("maps", "one is asked for twice", "name each once");
+    }
+  }
+  const bool color = std::find(maps.begin(), maps.end(), BakedMap::color) != maps.end();
+  if (color && (high.color == nullptr || high.mesh->texcoords.empty())) {
+    return usage("color", "the high mesh has no texture, or no UVs for it", "give both");
+  }
+  return Done{};
+}
+
+int channels_of(BakedMap map, const BakeSource& high) {
+  if (map == BakedMap::occlusion) return 1;
+  return map == BakedMap::color ? high.color->channels : 3;
+}
+
+/// Two numbers from 0 to 1 that differ from texel to texel.
+std::array<double, 2> scattered(std::uint64_t x) {
+  x += 0x9e3779b97f4a7c15ULL;
+  x = (x ^ (x >> 30U)) * 0xbf58476d1ce4e5b9ULL;
+  x = (x ^ (x >> 27U)) * 0x94d049bb133111ebULL;
+  x ^= x >> 31U;
+  return {double(x >> 32U) / 4294967296.0, double(x & 0xffffffffU) / 4294967296.0};
+}
+
+constexpr std::size_t kMapKinds = 5;
+
+class Baker {
+ public:
+  Baker(const LowSurface& low, const HighSurface& high, const TexelSamples& samples,
+        std::span<const BakedMap> maps, const BakeOptions& options, BakeResult& result)
+      : low_(low),
+        high_(high),
+        samples_(samples),
+        maps_(maps),
+        options_(options),
+        result_(result) {}
+
+  /// false: stopped.
+  bool run(int threads) {
+    reached_.assign(result_.inside.size(), 0);
+    parallel_for(samples_.band_count(), threads, [&](std::size_t band) {
+      if (stopped_) return;
+      bake_band(band);
+      report(++done_);
+    });
+    result_.texels_used = used_;
+    result_.texels_nearest = nearest_;
+    return !stopped_;
+  }
+
+  /// Texels that have a value: those inside and those just beyond a border.
+  [[nodiscard]] const TexelMask& reached() const { return reached_; }
+
+ private:
+  using Sums = std::array<std::array<double, kMostChannels>, kMapKinds>;  // of a texel's samples
+
+  void bake_band(std::size_t band) {
+    std::vector<TexelSample> samples;
+    samples_.read_band(band, samples);
+    const int first = TexelSamples::kBandRows * static_cast<int>(band);
+    for (int row = 0; row < samples_.band_rows(band); ++row) {
+      for (int x = 0; x < options_.width; ++x) bake_texel(samples, row, x, first + row);
+    }
+  }
+
+  void bake_texel(const std::vector<TexelSample>& samples, int row, int x, int y) {
+    const int across = options_.samples;
+    const std::size_t texel = std::size_t{1} * y * options_.width + static_cast<std::size_t>(x);
+    const TexelSample* nearest = nullptr;
+    Sums sums{};
+    int count = 0;
+    bool missed = false;
+    const auto add = [&](const TexelSample& sample) {
+      missed |= !add_sample(sample, texel * 256 + static_cast<std::size_t>(count), sums);
+      ++count;
+    };
+    for (int j = 0; j < across; ++j) {
+      const std::size_t begin =
+          (std::size_t{1} * (row * across + j) * options_.width + static_cast<std::size_t>(x)) *
+          static_cast<std::size_t>(across);
+      for (int i = 0; i < across; ++i) {
+        const TexelSample& sample = samples[begin + static_cast<std::size_t>(i)];
+        if (sample.triangle == kNone) continue;
+        if (nearest == nullptr || sample.distance < nearest->distance) nearest = &sample;
+        if (sample.is_on()) add(sample);
+      }
+    }
+    if (nearest == nullptr) return;
+    reached_[texel] = 1;
+    if (count > 0) {
+      result_.inside[texel] = 1;
+      ++used_;
+      if (missed) ++nearest_;
+    } else {
+      add(*nearest);
+    }
+    for (std::size_t m = 0; m < maps_.size(); ++m) write(m, x, y, sums[m], count);
+  }
+
+  /// false: no ray met the high mesh.
+  bool add_sample(const TexelSample& sample, std::size_t number, Sums& sums) const {
+    const LowPoint from = low_.at(sample, samples_.corners(sample.triangle));
+    const HighPoint at = high_.find(from.position, from.normal, result_.distance);
+    for (std::size_t m = 0; m < maps_.size(); ++m) {
+      const std::array<double, kMostChannels> value = value_of(maps_[m], from, at, number);
+      for (std::size_t c = 0; c < kMostChannels; ++c) sums[m][c] += value[c];
+    }
+    return at.by_ray;
+  }
+
+  [[nodiscard]] std::array<double, kMostChannels> value_of(BakedMap map, const LowPoint& from,
+                                                           const HighPoint& at,
+                                                           std::size_t number) const {
+    const auto of = [](const Vec3& v) {
+      return std::array<double, kMostChannels>{v.x, v.y, v.z, 0};
+    };
+    switch (map) {
+      case BakedMap::object_normals:
+        return of(high_.normal(at));
+      case BakedMap::tangent_normals:
+        return of(in_frame(high_.normal(at), from));
+      case BakedMap::positions:
+        return of((1 / result_.extent) * (high_.position(at) - result_.low_corner));
+      case BakedMap::occlusion:
+        return {high_.openness(at, options_.occlusion_rays, options_.occlusion_distance,
+                               scattered(number)),
+                0, 0, 0};
+      case BakedMap::color:
+        break;
+    }
+    const TextureValue color = high_.color(at);
+    return {color[0], color[1], color[2], color[3]};
+  }
+
+  /// The weights of tangent, bitangent and normal that add up to `n`. The first two need not be
+  /// perpendicular to the normal, where it is interpolated.
+  static Vec3 in_frame(const Vec3& n, const LowPoint& frame) {
+    const Vec3& t = frame.tangent;
+    const Vec3& b = frame.bitangent;
+    const Vec3& up = frame.normal;
+    const double volume = dot(t, cross(b, up));
+    if (!(std::abs(volume) > 1e-6)) return {0, 0, 1};
+    return (1 / volume) * Vec3{dot(n, cross(b, up)), dot(n, cross(up, t)), dot(n, cross(t, b))};
+  }
+
+  void write(std::size_t map, int x, int y, const std::array<double, kMostChannels>& sum,
+             int count) const {
+    Texture& texture = result_.maps[map];
+    float* value = texture.at(x, y);
+    const bool directions =
+        maps_[map] == BakedMap::object_normals || maps_[map] == BakedMap::tangent_normals;
+    const double size = std::sqrt(sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2]);
+    for (int c = 0; c < texture.channels; ++c) {
+      const double mean = sum[static_cast<std::size_t>(c)] / count;
+      const double direction = size > 0 ? sum[static_cast<std::size_t>(c)] / size : c == 2;
+      value[c] = static_cast<float>(directions ? 0.5 + 0.5 * direction : mean);
+    }
+  }
+
+  void report(std::size_t done) {
+    if (!options_.progress) return;
+    const std::unique_lock lock(mutex_, std::try_to_lock);
+    if (!lock) return;
+    if (!options_.progress(double(done) / double(samples_.band_count()))) stopped_ = true;
+  }
+
+  const LowSurface& low_;
+  const HighSurface& high_;
+  const TexelSamples& samples_;
+  std::span<const BakedMap> maps_;
+  const BakeOptions& options_;
+  BakeResult& result_;
+  TexelMask reached_;
+  std::mutex mutex_;
+  std::atomic<bool> stopped_{false};
+  std::atomic<std::size_t> done_{0}, used_{0}, nearest_{0};
+};
+
+/// Twice the largest distance of a corner or a middle of a face to the high mesh.
+double search_distance(const Mesh& low, const RayScene& scene) {
+  double farthest = 0;
+  const auto look = [&](const Vec3& place) {
+    if (const auto point = scene.nearest_point(place)) {
+      farthest = std::max(farthest, point->distance);
+    }
+  };
+  for (std::uint32_t face = 0; face < low.face_count(); ++face) {
+    const Triangle t = triangle_of(low, face);
+    look(t[0]);
+    look(point_at(t, {1.0 / 3, 1.0 / 3, 1.0 / 3}));
+  }
+  return std::max(2 * farthest, 1e-4 * scene.diagonal());
+}
+
+void set_box(const Mesh& low, const Mesh& high, BakeResult& result) {
+  Vec3 least{1e300, 1e300, 1e300}, most{-1e300, -1e300, -1e300};
+  for (const Mesh* mesh : {&low, &high}) {
+    for (const std::uint32_t i : mesh->corner_position) {
+      const Vec3& p = mesh->positions[i];
+      least = {std::min(least.x, p.x), std::min(least.y, p.y), std::min(least.z, p.z)};
+      most = {std::max(most.x, p.x), std::max(most.y, p.y), std::max(most.z, p.z)};
+    }
+  }
+  const Vec3 size = most - least;
+  const double longest = std::max({size.x, size.y, size.z});
+  result.low_corner = least;
+  result.extent = longest > 0 ? longest : 1;
+}
+
+}  // namespace
+
+Result<BakeResult> bake(const Mesh& low, const BakeSource& high, std::span<const BakedMap> maps,
+                        const BakeOptions& options) {
+  if (const Status ok = check_options(high, maps, options); !ok) return ok.error();
+  for (const Mesh* mesh : {&low, high.mesh}) {
+    if (mesh->face_count() == 0) {
+      return Error{ErrorKind::input, mesh == &low ? "low mesh" : "high mesh", "it has no faces",
+                   "export it again"};
+    }
+  }
+  const int threads = thread_count(options.threads);
+  const Triangulated low_triangles = triangulated(low), high_triangles = triangulated(*high.mesh);
+  BakeResult result;
+  const TexelSamples samples(low_triangles.mesh, options.width, options.height, options.wrap,
+                             options.v_points_down, options.samples);
+  result.faces_without_uv = samples.faces_without_uv();
+  if (result.faces_without_uv == low_triangles.mesh.face_count()) {
+    return Error{ErrorKind::input, "low mesh", "no face has UVs to bake on", "unwrap it first"};
+  }
+  const auto high_surface =
+      HighSurface::build(high_triangles.mesh, high, options.high_hard_angle, threads);
+  if (!high_surface) return high_surface.error();
+  const LowSurface low_surface(low_triangles.mesh, options.hard_angle, options.v_points_down);
+  result.distance = options.distance > 0
+                        ? options.distance
+                        : search_distance(low_triangles.mesh, high_surface->scene());
+  set_box(low, *high.mesh, result);
+  for (const BakedMap map : maps) {
+    result.maps.emplace_back(options.width, options.height, channels_of(map, high));
+  }
+  result.inside.assign(result.maps.front().texel_count(), 0);
+  Baker baker(low_surface, *high_surface, samples, maps, options, result);
+  if (!baker.run(threads)) return Error{ErrorKind::interrupted, "", "stopped", ""};
+  for (Texture& map : result.maps) dilate(map, baker.reached(), options.wrap);
+  return result;
+}
+
+}  // namespace wrapatlas

@@ -1,0 +1,80 @@
+#include "bake/high_surface.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "bake/triangle_point.h"
+#include "mesh/polygon_plane.h"
+
+namespace wrapatlas {
+
+Result<HighSurface> HighSurface::build(const Mesh& mesh, const BakeSource& source,
+                                       double hard_angle, int threads) {
+  auto scene = RayScene::build(mesh, threads);
+  if (!scene) return scene.error();
+  return HighSurface(mesh, source, hard_angle, std::move(*scene));
+}
+
+Vec3 HighSurface::face_normal(std::uint32_t triangle) const {
+  const Triangle t = triangle_of(*mesh_, triangle);
+  return cross(t[1] - t[0], t[2] - t[0]);
+}
+
+HighPoint HighSurface::find(const Vec3& place, const Vec3& normal, double distance) const {
+  std::optional<SurfacePoint> best;
+  for (const double way : {1.0, -1.0}) {
+    const auto hit = scene_.first_hit(place, way * normal, best ? best->distance : distance);
+    if (hit && dot(face_normal(hit->triangle), normal) > 0) best = hit;
+  }
+  const bool by_ray = best.has_value();
+  if (!best) best = scene_.nearest_point(place);
+  if (!best) return {};
+  return {best->triangle, best->weights, by_ray};
+}
+
+Vec3 HighSurface::position(const HighPoint& point) const {
+  return point_at(triangle_of(*mesh_, point.triangle), point.weights);
+}
+
+Vec3 HighSurface::normal(const HighPoint& point) const {
+  Vec3 sum;
+  for (std::size_t i = 0; i < 3; ++i) {
+    sum = sum + point.weights[i] * normals_[3 * std::size_t{point.triangle} + i];
+  }
+  return unit(sum == Vec3{} ? face_normal(point.triangle) : sum);
+}
+
+TextureValue HighSurface::color(const HighPoint& point) const {
+  Vec2 uv;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::uint32_t at = mesh_->corner_texcoord[3 * std::size_t{point.triangle} + i];
+    if (at == kNone) return {};
+    uv = uv + point.weights[i] * mesh_->texcoords[at];
+  }
+  if (!source_->v_points_down) uv.y = 1 - uv.y;
+  return sample_bilinear(*source_->color, uv, Wrap::uv);
+}
+
+double HighSurface::openness(const HighPoint& point, int rays, double farthest,
+                             std::array<double, 2> turn) const {
+  constexpr double kOff = 1e-4;  // of the diagonal: rays begin this far from the surface
+  const Vec3 up = normal(point);
+  const Vec3 axis = std::abs(up.x) < 0.9 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
+  const Vec3 across = unit(cross(axis, up)), along = cross(up, across);
+  const double off = kOff * scene_.diagonal();
+  const Vec3 origin = position(point) + off * up;
+  const double end = farthest > 0 ? farthest : 4 * scene_.diagonal();
+  int open = 0;
+  for (int i = 0; i < rays; ++i) {
+    // Roberts' sequence of two dimensions, which fills the square evenly for any count.
+    const double a = std::fmod(turn[0] + 0.7548776662466927 * i, 1);
+    const double b = std::fmod(turn[1] + 0.5698402909980532 * i, 1);
+    const double radius = std::sqrt(a), angle = 2 * std::numbers::pi * b;
+    const Vec3 direction = radius * std::cos(angle) * across + radius * std::sin(angle) * along +
+                           std::sqrt(1 - a) * up;
+    if (!scene_.is_blocked(origin, direction, 0, end)) ++open;
+  }
+  return double(open) / rays;
+}
+
+}  // namespace wrapatlas

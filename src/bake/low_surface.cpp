@@ -1,0 +1,53 @@
+#include "bake/low_surface.h"
+
+#include <cmath>
+
+#include "mesh/polygon_plane.h"
+
+namespace wrapatlas {
+namespace {
+
+/// Beyond its border a triangle goes on in its plane; one that is stretched so much that this leads
+/// far away ends there.
+Vec3 continued(const Triangle& triangle, const std::array<Vec2, 3>& on_texels,
+               const TexelSample& sample, const std::array<double, 3>& nearest) {
+  constexpr double kMostStretch = 3;
+  const Vec3 there = point_at(triangle, sample.weights), border = point_at(triangle, nearest);
+  const double area = length(cross(triangle[1] - triangle[0], triangle[2] - triangle[0]));
+  const double texels = std::abs(signed_area2(on_texels[0], on_texels[1], on_texels[2]));
+  const double farthest = kMostStretch * sample.distance * std::sqrt(area / texels);
+  return length(there - border) <= farthest ? there : border;
+}
+
+}  // namespace
+
+LowPoint LowSurface::at(const TexelSample& sample, const std::array<Vec2, 3>& on_texels) const {
+  std::array<double, 3> weights = sample.weights;
+  const Triangle triangle = triangle_of(mesh_, sample.triangle);
+  LowPoint point;
+  if (sample.is_on()) {
+    point.position = point_at(triangle, weights);
+  } else {
+    const Vec2 place =
+        weights[0] * on_texels[0] + weights[1] * on_texels[1] + weights[2] * on_texels[2];
+    const std::array<double, 3> nearest = nearest_weights(on_texels, place);
+    point.position = continued(triangle, on_texels, sample, nearest);
+    weights = nearest;
+  }
+  Vec3 tangent;
+  double sign = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t c = 3 * std::size_t{sample.triangle} + i;
+    point.normal = point.normal + weights[i] * frames_.normal[c];
+    tangent = tangent + weights[i] * frames_.tangent[c];
+    sign += weights[i] * frames_.sign[c];
+  }
+  // As a renderer has them: interpolated, and not made perpendicular again.
+  if (point.normal == Vec3{}) point.normal = polygon_normal(mesh_, sample.triangle);
+  point.normal = unit(point.normal);
+  point.tangent = unit(tangent);
+  point.bitangent = (sign < 0 ? -1.0 : 1.0) * cross(point.normal, point.tangent);
+  return point;
+}
+
+}  // namespace wrapatlas

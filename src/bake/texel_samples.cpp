@@ -1,0 +1,202 @@
+#include "bake/texel_samples.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "raster/row_scan.h"
+
+namespace wrapatlas {
+namespace {
+
+constexpr double kMostAtlases = 1e6;  ///< away from [0, 1]
+constexpr double kHair = 1e-6;        ///< texels: nearer than this is on the triangle
+
+std::array<double, 3> weights_at(const std::array<Vec2, 3>& corner, Vec2 p) {
+  const double area = signed_area2(corner[0], corner[1], corner[2]);
+  const double b = signed_area2(corner[2], corner[0], p) / area;
+  const double c = signed_area2(corner[0], corner[1], p) / area;
+  return {1 - b - c, b, c};
+}
+
+Vec2 place(const std::array<Vec2, 3>& corner, const std::array<double, 3>& weights) {
+  return weights[0] * corner[0] + weights[1] * corner[1] + weights[2] * corner[2];
+}
+
+bool is_inside(const std::array<double, 3>& weights) {
+  return weights[0] >= 0 && weights[1] >= 0 && weights[2] >= 0;
+}
+
+/// What a triangle has of the strip from `low` to `high`, from left to right.
+Interval extent_between(const std::array<Vec2, 3>& corner, double low, double high) {
+  Interval x;
+  for (std::size_t i = 0; i < 3; ++i) {
+    Vec2 a = corner[i], b = corner[(i + 1) % 3];
+    if (a.y > b.y) std::swap(a, b);
+    if (b.y < low || a.y > high) continue;
+    const auto at = [&](double y) {
+      return b.y > a.y ? a.x + (b.x - a.x) * ((y - a.y) / (b.y - a.y)) : a.x;
+    };
+    const double from = a.y < low ? at(low) : a.x, to = b.y > high ? at(high) : b.x;
+    x.add({std::min(from, to), std::max(from, to)});
+    if (a.y == b.y) x.add({std::min(a.x, b.x), std::max(a.x, b.x)});
+  }
+  return x;
+}
+
+}  // namespace
+
+std::array<double, 3> nearest_weights(const std::array<Vec2, 3>& corner, Vec2 p) {
+  const std::array<double, 3> inside = weights_at(corner, p);
+  if (is_inside(inside)) return inside;
+  std::array<double, 3> best{1, 0, 0};
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t j = (i + 1) % 3;
+    const Vec2 side = corner[j] - corner[i];
+    const double size2 = dot(side, side);
+    const double share = size2 > 0 ? std::clamp(dot(p - corner[i], side) / size2, 0.0, 1.0) : 0;
+    const Vec2 off = corner[i] + share * side - p;
+    if (dot(off, off) >= least) continue;
+    least = dot(off, off);
+    best = {};
+    best[i] = 1 - share;
+    best[j] = share;
+  }
+  return best;
+}
+
+TexelSamples::TexelSamples(const Mesh& mesh, int width, int height, Wrap wrap, bool v_points_down,
+                           int across)
+    : mesh_(mesh),
+      width_(width),
+      height_(height),
+      across_(across),
+      wrap_(wrap),
+      v_points_down_(v_points_down) {
+  std::vector<Image> images;
+  for (std::uint32_t triangle = 0; triangle < mesh.face_count(); ++triangle) {
+    add_images(triangle, images);
+  }
+  const int bands = (height + kBandRows - 1) / kBandRows;
+  band_begin_.assign(static_cast<std::size_t>(bands) + 1, 0);
+  for (const Image& image : images) {
+    const auto [first, last] = bands_of(image);
+    for (int band = first; band <= last; ++band) ++band_begin_[static_cast<std::size_t>(band) + 1];
+  }
+  for (std::size_t band = 1; band < band_begin_.size(); ++band) {
+    band_begin_[band] += band_begin_[band - 1];
+  }
+  images_.resize(band_begin_.back());
+  std::vector<std::size_t> next(band_begin_.begin(), band_begin_.end() - 1);
+  for (const Image& image : images) {
+    const auto [first, last] = bands_of(image);
+    for (int band = first; band <= last; ++band) {
+      images_[next[static_cast<std::size_t>(band)]++] = image;
+    }
+  }
+}
+
+std::array<Vec2, 3> TexelSamples::corners(std::uint32_t triangle) const {
+  std::array<Vec2, 3> corner;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vec2 uv = mesh_.texcoords[mesh_.corner_texcoord[3 * std::size_t{triangle} + i]];
+    corner[i] = {width_ * uv.x, height_ * (v_points_down_ ? uv.y : 1 - uv.y)};
+  }
+  return corner;
+}
+
+void TexelSamples::add_images(std::uint32_t triangle, std::vector<Image>& images) {
+  const std::uint32_t* texcoord = mesh_.corner_texcoord.data() + 3 * std::size_t{triangle};
+  const bool has_uv = texcoord[0] != kNone && texcoord[1] != kNone && texcoord[2] != kNone;
+  const std::array<Vec2, 3> corner = has_uv ? corners(triangle) : std::array<Vec2, 3>{};
+  if (!has_uv || signed_area2(corner[0], corner[1], corner[2]) == 0) {
+    ++faces_without_uv_;
+    return;
+  }
+  Box2 box;
+  for (const Vec2 p : corner) box.add(p);
+  // Atlases by which a range must move so that it meets [0, side).
+  const auto range = [](double low, double high, double side, bool wraps) {
+    if (!wraps) return std::pair<std::int32_t, std::int32_t>{0, 0};
+    const double first = -std::floor((high + kReach) / side);
+    const double last = -std::floor((low - kReach) / side);
+    if (!(std::abs(first) < kMostAtlases && std::abs(last) < kMostAtlases)) {
+      return std::pair<std::int32_t, std::int32_t>{1, 0};
+    }
+    return std::pair{static_cast<std::int32_t>(first), static_cast<std::int32_t>(last)};
+  };
+  const auto [left, right] = range(box.min.x, box.max.x, width_, wraps_u(wrap_));
+  const auto [top, bottom] = range(box.min.y, box.max.y, height_, wraps_v(wrap_));
+  for (std::int32_t y = top; y <= bottom; ++y) {
+    for (std::int32_t x = left; x <= right; ++x) images.push_back({triangle, x, y});
+  }
+}
+
+std::pair<int, int> TexelSamples::bands_of(const Image& image) const {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const Vec2 p : corners(image.triangle)) {
+    low = std::min(low, p.y + double{1} * image.y * height_);
+    high = std::max(high, p.y + double{1} * image.y * height_);
+  }
+  const int last_band = (height_ + kBandRows - 1) / kBandRows - 1;
+  const double first = std::floor((low - kReach) / kBandRows);
+  const double last = std::floor((high + kReach) / kBandRows);
+  return {static_cast<int>(std::clamp(first, 0.0, last_band + 1.0)),
+          static_cast<int>(std::clamp(last, -1.0, double(last_band)))};
+}
+
+int TexelSamples::band_rows(std::size_t band) const {
+  return std::min(kBandRows, height_ - kBandRows * static_cast<int>(band));
+}
+
+void TexelSamples::read_band(std::size_t band, std::vector<TexelSample>& samples) const {
+  const int rows = across_ * band_rows(band);
+  samples.assign(std::size_t{1} * width_ * across_ * rows, TexelSample{});
+  const int first_row = across_ * kBandRows * static_cast<int>(band);
+  for (std::size_t i = band_begin_[band]; i < band_begin_[band + 1]; ++i) {
+    draw(images_[i], first_row, rows, samples);
+  }
+}
+
+void TexelSamples::draw(const Image& image, int first_row, int row_count,
+                        std::vector<TexelSample>& samples) const {
+  const Vec2 by{double{1} * image.x * width_, double{1} * image.y * height_};
+  std::array<Vec2, 3> corner = corners(image.triangle);
+  Box2 box;
+  for (Vec2& p : corner) {
+    p = p + by;
+    box.add(p);
+  }
+  const double step = 1.0 / across_;
+  const auto first_at = [&](double place) { return std::ceil(across_ * place - 0.5); };
+  const int columns = width_ * across_;
+  const int begin = static_cast<int>(std::max<double>(first_row, first_at(box.min.y - kReach)));
+  const int end =
+      static_cast<int>(std::min<double>(first_row + row_count, first_at(box.max.y + kReach) + 1));
+  for (int row = begin; row < end; ++row) {
+    const double y = (row + 0.5) * step;
+    const Interval x = extent_between(corner, y - kReach, y + kReach);
+    if (x.empty()) continue;
+    const int left = static_cast<int>(std::max(0.0, first_at(x.low - kReach)));
+    const int right = static_cast<int>(std::min<double>(columns, first_at(x.high + kReach) + 1));
+    for (int column = left; column < right; ++column) {
+      TexelSample& sample =
+          samples[std::size_t{1} * (row - first_row) * columns + static_cast<std::size_t>(column)];
+      if (sample.is_on()) continue;
+      const Vec2 p{(column + 0.5) * step, y};
+      const std::array<double, 3> weights = weights_at(corner, p);
+      double distance = 0;
+      if (!is_inside(weights)) {
+        distance = length(place(corner, nearest_weights(corner, p)) - p);
+        if (distance < kHair) distance = 0;
+        if (!(distance <= kReach)) continue;
+      }
+      const auto rounded = static_cast<float>(distance);
+      if (sample.triangle != kNone && !(rounded < sample.distance)) continue;
+      sample = {image.triangle, rounded, weights};
+    }
+  }
+}
+
+}  // namespace wrapatlas

@@ -1,0 +1,38 @@
+// IEC 61966-2-1.
+#include <cmath>
+
+#include "wrapatlas/texture.h"
+
+namespace wrapatlas {
+namespace {
+
+template <typename Change>
+void change_colors(Texture& texture, Change&& change) {
+  const int colors = texture.channels < 3 ? 1 : 3;
+  for (std::size_t t = 0; t < texture.texel_count(); ++t) {
+    float* value = texture.values.data() + t * static_cast<std::size_t>(texture.channels);
+    for (int i = 0; i < colors; ++i) value[i] = change(value[i]);
+  }
+}
+
+}  // namespace
+
+float srgb_to_linear(float value) {
+  if (value < 0) return -srgb_to_linear(-value);
+  return value <= 0.04045F ? value / 12.92F : std::pow((value + 0.055F) / 1.055F, 2.4F);
+}
+
+float linear_to_srgb(float value) {
+  if (value < 0) return -linear_to_srgb(-value);
+  return value <= 0.0031308F ? value * 12.92F : 1.055F * std::pow(value, 1 / 2.4F) - 0.055F;
+}
+
+void srgb_to_linear(Texture& texture) {
+  change_colors(texture, [](float value) { return srgb_to_linear(value); });
+}
+
+void linear_to_srgb(Texture& texture) {
+  change_colors(texture, [](float value) { return linear_to_srgb(value); });
+}
+
+}  // namespace wrapatlas

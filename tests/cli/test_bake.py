@@ -1,0 +1,163 @@
+"""wrapatlas bake: maps of a detailed model on the atlas of a simpler one."""
+
+import pathlib
+import struct
+import unittest
+import zlib
+
+import support
+
+SQUARE = """v 0 0 0
+v 1 0 0
+v 1 1 0
+v 0 1 0
+vt 0 0
+vt 1 0
+vt 1 1
+vt 0 1
+f 1/1 2/2 3/3 4/4
+"""
+# Above it, and tilted: its normal is (-0.6, 0, 0.8).
+TILTED = "v -1 -1 -0.7\nv 2 -1 1.55\nv 2 2 1.55\nv -1 2 -0.7\nf 1 2 3 4\n"
+
+
+def read_png(path):
+    """(width, height, bits, channels, rows of bytes) of a PNG without interlacing."""
+    data = pathlib.Path(path).read_bytes()
+    assert data[:8] == b"\x89PNG\r\n\x1a\n"
+    at, packed = 8, b""
+    while at < len(data):
+        size, kind = struct.unpack(">I4s", data[at:at + 8])
+        body = data[at + 8:at + 8 + size]
+        if kind == b"IHDR":
+            width, height, bits, colour = struct.unpack(">IIBB", body[:10])
+        if kind == b"IDAT":
+            packed += body
+        at += 12 + size
+    channels = {0: 1, 2: 3, 4: 2, 6: 4}[colour]
+    step, raw, rows, last = channels * bits // 8, zlib.decompress(packed), [], None
+    for y in range(height):
+        begin = y * (width * step + 1)
+        kind, row = raw[begin], bytearray(raw[begin + 1:begin + 1 + width * step])
+        last = last or bytes(width * step)
+        for i in range(len(row)):
+            left = row[i - step] if i >= step else 0
+            corner = last[i - step] if i >= step else 0
+            guess = left + last[i] - corner
+            paeth = min((left, last[i], corner), key=lambda value: abs(guess - value))
+            row[i] = (row[i] + (0, left, last[i], (left + last[i]) // 2, paeth)[kind]) % 256
+        rows.append(bytes(row))
+        last = rows[-1]
+    return width, height, bits, channels, rows
+
+
+class Bake(support.CommandTest):
+    def setUp(self):
+        super().setUp()
+        self.write("low.obj", SQUARE)
+        self.write("high.obj", TILTED)
+
+    def bake(self, *options, low="low.obj", high="high.obj", output="n.png"):
+        return self.report("bake", low, high, "-o", output, "--quiet", *options)
+
+    def test_normals_of_a_tilted_plane(self):
+        for space in ("object", "tangent"):  # of this square they are the same
+            report = self.bake("--map", space, "--resolution", "16x8")
+            self.assertEqual((report["width"], report["height"]), (16, 8))
+            self.assertEqual(report["texels_used"], 128)
+            width, height, bits, channels, rows = read_png(self.path("n.png"))
+            self.assertEqual((width, height, bits, channels), (16, 8, 8, 3))
+            for value, expected in zip(rows[4][:3], (0.2 * 255, 127.5, 0.9 * 255)):
+                self.assertAlmostEqual(value, expected, delta=1)
+
+    def test_sixteen_bits(self):
+        self.bake("--map", "object", "--resolution", 8, "--bits", 16)
+        *_, bits, channels, rows = read_png(self.path("n.png"))
+        self.assertEqual((bits, channels), (16, 3))
+        values = struct.unpack(">3H", rows[3][:6])
+        for value, expected in zip(values, (0.2, 0.5, 0.9)):
+            self.assertAlmostEqual(value / 65535, expected, delta=1e-4)
+
+    def test_several_maps_in_one_run(self):
+        report = self.bake("--resolution", 8, "--also", "occlusion=ao.png", "--also",
+                           "position=p.png")
+        self.assertEqual([one["kind"] for one in report["maps"]],
+                         ["tangent", "occlusion", "position"])
+        self.assertEqual(read_png(self.path("ao.png"))[3], 1)
+        self.assertEqual(read_png(self.path("p.png"))[3], 3)
+
+    def test_mips(self):
+        self.bake("--resolution", "8x4", "--mips")
+        sizes = [read_png(self.path(name))[:2]
+                 for name in ("n.png", "n.1.png", "n.2.png", "n.3.png")]
+        self.assertEqual(sizes, [(8, 4), (4, 2), (2, 1), (1, 1)])
+        self.assertFalse(self.path("n.4.png").exists())
+
+    def test_colour_of_a_texture(self):
+        # What is baked on the same UVs at the same size is the texture itself.
+        self.bake("--map", "object", "--resolution", 8, output="t.png")
+        self.write("same.obj", SQUARE)
+        self.bake("--map", "color", "--color-from", "t.png", "--resolution", 8, high="same.obj")
+        self.assertEqual(read_png(self.path("n.png"))[4], read_png(self.path("t.png"))[4])
+
+    def test_a_packed_model(self):
+        source = self.sample("knot.off")
+        self.succeed("unwrap", source, "-o", "low.glb", "--resolution", 256, "--time", 0,
+                     "--quiet")
+        report = self.bake("--resolution", 256, low="low.glb", high=source)
+        self.assertEqual(report["texels_nearest"], 0)
+        self.assertGreater(report["texels_used"], 256 * 256 * 0.4)
+        *_, rows = read_png(self.path("n.png"))
+        blues = [row[i] for row in rows for i in range(2, len(row), 3)]
+        # The model on itself, but for the diagonals of its quads: normals are straight up everywhere.
+        self.assertGreater(min(blues), 235)
+
+    def test_same_bytes_for_any_number_of_threads(self):
+        for threads in (1, 3):
+            self.bake("--also", "occlusion=ao.png", "--resolution", 32, "--threads", threads)
+            self.path("ao.png").rename(self.path(f"{threads}.png"))
+        self.assertEqual(self.path("1.png").read_bytes(), self.path("3.png").read_bytes())
+
+    def test_says_what_was_left_out(self):
+        self.write("low.obj", SQUARE + "f 1 2 3\n")
+        done = self.call("bake", "low.obj", "high.obj", "-o", "n.png", "--resolution", 8,
+                         "--distance", 0.01)
+        self.assertEqual(done.returncode, 0)
+        self.assertIn("1 face has no UVs", done.stderr)
+        self.assertIn("no ray met high.obj within 0.01", done.stderr)
+        self.assertIn("-> n.png", done.stderr)
+
+    def test_refuses(self):
+        self.write("bare.obj", TILTED)
+        self.write("empty.obj", "")
+        self.write("junk.png", "no picture")
+        usage = (
+            (("--also", "tangent=a.png"), "asked for twice"),
+            (("--also", "shine=a.png"), "not a kind"),
+            (("--also", "occlusion"), "not a kind"),
+            (("--also", "occlusion=a.jpg"), "PNG"),
+            (("--also", "occlusion=n.png"), "same file"),
+            (("--map", "color"), "--color-from"),
+            (("--color-from", "junk.png"), "no colour is baked"),
+            (("--occlusion-rays", 5), "no occlusion is baked"),
+            (("--bits", 9), "8 or 16"),
+            (("--samples", 0), "out of range"),
+            (("--texcoord", 1), "glTF"),
+        )
+        for options, word in usage:
+            with self.subTest(options=options):
+                self.refuse(2, (word,), "bake", "low.obj", "high.obj", "-o", "n.png", *options)
+        self.refuse(2, ("PNG",), "bake", "low.obj", "high.obj", "-o", "n.jpg")
+        self.refuse(2, ("--json", "overwrite"), "bake", "low.obj", "high.obj", "-o", "n.png",
+                    "--json", "high.obj")
+        self.refuse(3, ("bare.obj", "UVs"), "bake", "bare.obj", "high.obj", "-o", "n.png")
+        self.refuse(3, ("empty.obj", "no faces"), "bake", "low.obj", "empty.obj", "-o", "n.png")
+        self.refuse(3, ("none.obj",), "bake", "low.obj", "none.obj", "-o", "n.png")
+        self.refuse(3, ("nowhere",), "bake", "low.obj", "high.obj", "-o", "nowhere/n.png")
+        self.refuse(3, ("junk.png",), "bake", "low.obj", "high.obj", "-o", "n.png", "--map",
+                    "color", "--color-from", "junk.png")
+        self.assertFalse(self.path("n.png").exists())
+
+
+if __name__ == "__main__":
+    unittest.main()

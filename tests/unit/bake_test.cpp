@@ -1,0 +1,257 @@
+// Baked maps against surfaces whose normals and positions are known.
+#include "wrapatlas/bake.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "mesh/polygon_plane.h"
+#include "support/solids.h"
+#include "wrapatlas/tangents.h"
+
+namespace wrapatlas {
+namespace {
+
+/// A sheet over [0, 1]^2 with its positions as UVs, moved by `shift`.
+Mesh mapped_sheet(std::uint32_t n, Vec2 shift = {}) {
+  Mesh mesh = test::sheet(n);
+  for (const Vec3& p : mesh.positions) mesh.texcoords.push_back(Vec2{p.x, p.y} + shift);
+  mesh.corner_texcoord = mesh.corner_position;
+  return mesh;
+}
+
+Vec3 direction_at(const Texture& map, int x, int y) {
+  const float* value = map.at(x, y);
+  return {2.0 * double(value[0]) - 1, 2.0 * double(value[1]) - 1, 2.0 * double(value[2]) - 1};
+}
+
+BakeOptions small(int side) {
+  BakeOptions options;
+  options.width = options.height = side;
+  options.threads = 2;
+  return options;
+}
+
+TEST(Bake, ASheetOnItself) {
+  const Mesh low = mapped_sheet(1), high = test::sheet(7);
+  const BakedMap maps[] = {BakedMap::object_normals, BakedMap::tangent_normals, BakedMap::positions,
+                           BakedMap::occlusion};
+  const auto result = bake(low, {&high}, maps, small(32));
+  ASSERT_TRUE(result);
+  EXPECT_EQ(result->texels_used, 32U * 32U);
+  EXPECT_EQ(result->texels_nearest, 0U);
+  for (int y = 0; y < 32; ++y) {
+    for (int x = 0; x < 32; ++x) {
+      for (const int map : {0, 1}) {
+        EXPECT_LT(length(direction_at(result->maps[map], x, y) - Vec3{0, 0, 1}), 1e-6);
+      }
+      const float* p = result->maps[2].at(x, y);
+      EXPECT_NEAR(p[0], (x + 0.5) / 32, 1e-6);
+      EXPECT_NEAR(p[1], 1 - (y + 0.5) / 32, 1e-6);  // v points up, rows go down
+      EXPECT_EQ(*result->maps[3].at(x, y), 1);
+    }
+  }
+}
+
+TEST(Bake, ChartsGoOnOverTheBorder) {
+  const Mesh low = mapped_sheet(2, {0.4, -0.7}), high = test::sheet(3);
+  const BakedMap maps[] = {BakedMap::positions};
+  BakeOptions options = small(40);
+  const auto whole = bake(low, {&high}, maps, options);
+  ASSERT_TRUE(whole);
+  EXPECT_EQ(whole->texels_used, 1600U);
+  for (int y = 0; y < 40; ++y) {
+    for (int x = 0; x < 40; ++x) {
+      const double u = (x + 0.5) / 40 - 0.4, v = 1 - (y + 0.5) / 40 + 0.7;
+      const float* p = whole->maps[0].at(x, y);
+      // Exactly on the seam a texel is a mean of both its sides.
+      EXPECT_NEAR(p[0], u - std::floor(u), 1e-5);
+      EXPECT_NEAR(p[1], v - std::floor(v), 1e-5);
+    }
+  }
+  options.wrap = Wrap::none;
+  const auto cut = bake(low, {&high}, maps, options);
+  ASSERT_TRUE(cut);
+  EXPECT_EQ(cut->texels_used, 24U * 12U);
+}
+
+/// A coarse ball in two halves, each seen from its pole, side by side.
+Mesh mapped_ball() {
+  Mesh mesh = test::ball(8);
+  std::vector<Vec2> uvs;
+  for (std::uint32_t face = 0; face < mesh.face_count(); ++face) {
+    double middle = 0;
+    for (std::uint32_t c = 3 * face; c < 3 * face + 3; ++c) {
+      middle += mesh.positions[mesh.corner_position[c]].z;
+    }
+    for (std::uint32_t c = 3 * face; c < 3 * face + 3; ++c) {
+      const Vec3& p = mesh.positions[mesh.corner_position[c]];
+      const double side = middle > 0 ? 1 : -1;
+      const double around = std::sqrt(2 / (1 + side * p.z));  // Lambert's azimuthal projection
+      mesh.corner_texcoord[c] = c;
+      uvs.push_back(
+          {0.25 + 0.16 * around * p.x + (side > 0 ? 0 : 0.5), 0.5 + 0.16 * side * around * p.y});
+    }
+  }
+  mesh.texcoords = std::move(uvs);
+  return mesh;
+}
+
+TEST(Bake, ABallOnACoarseOne) {
+  const Mesh low = mapped_ball(), high = test::ball(96);
+  const BakedMap maps[] = {BakedMap::object_normals, BakedMap::positions,
+                           BakedMap::tangent_normals};
+  BakeOptions options = small(96);
+  options.samples = 1;
+  const auto result = bake(low, {&high}, maps, options);
+  ASSERT_TRUE(result);
+  EXPECT_EQ(result->texels_nearest, 0U);
+  // Two discs of radius 0.16 * sqrt(2) but for the corners of 16.
+  EXPECT_GT(result->texels_used, 2800U);
+  EXPECT_LT(result->texels_used, 3200U);
+  for (int y = 0; y < 96; ++y) {
+    for (int x = 0; x < 96; ++x) {
+      const Vec3 n = direction_at(result->maps[0], x, y);
+      EXPECT_NEAR(length(n), 1, 1e-5);  // those outside charts have a value as well
+      if (result->inside[std::size_t(96) * y + x] == 0) continue;
+      const float* p = result->maps[1].at(x, y);
+      const Vec3 place =
+          result->low_corner + result->extent * Vec3{double(p[0]), double(p[1]), double(p[2])};
+      EXPECT_GT(dot(n, unit(place)), 0.999);
+      EXPECT_GT(result->maps[2].at(x, y)[2], 0.9F);  // the coarse normals are near already
+    }
+  }
+}
+
+TEST(Bake, TangentSpaceLeadsBackToTheNormal) {
+  // A flat square, turned in UV; above it a plane that is tilted.
+  Mesh low = mapped_sheet(1);
+  for (Vec2& uv : low.texcoords) uv = {0.5 + 0.6 * (uv.y - 0.5), 0.5 - 0.6 * (uv.x - 0.5)};
+  Mesh high = test::sheet(1);
+  for (Vec3& p : high.positions) p = {3 * p.x - 1, 3 * p.y - 1, 0.1 + 0.3 * p.x + 0.1 * p.y};
+  const Vec3 tilted = unit(polygon_normal(high, 0));
+  const BakedMap maps[] = {BakedMap::tangent_normals};
+  for (const bool down : {false, true}) {
+    BakeOptions options = small(16);
+    options.v_points_down = down;
+    const auto result = bake(low, {&high}, maps, options);
+    ASSERT_TRUE(result);
+    const TangentFrames frames = tangent_frames(low, smooth_normals(low), down);
+    const Vec3 t = frames.tangent[0], n = frames.normal[0];
+    const Vec3 b = double(frames.sign[0]) * cross(n, t);
+    const Vec3 stored = direction_at(result->maps[0], 8, 8);
+    EXPECT_LT(length(stored.x * t + stored.y * b + stored.z * n - tilted), 1e-5);
+    EXPECT_EQ(frames.sign[0], down ? -1 : 1);
+  }
+}
+
+TEST(Bake, LooksBothWaysAndForTheNearestPoint) {
+  const Mesh low = mapped_sheet(1);
+  Mesh high = test::sheet(1);
+  const BakedMap maps[] = {BakedMap::positions};
+  BakeOptions options = small(8);
+  for (const double z : {0.2, -0.2}) {
+    for (Vec3& p : high.positions) p.z = z;
+    options.distance = 0.3;
+    const auto near = bake(low, {&high}, maps, options);
+    ASSERT_TRUE(near);
+    EXPECT_EQ(near->texels_nearest, 0U);
+    options.distance = 0.1;
+    const auto far = bake(low, {&high}, maps, options);
+    ASSERT_TRUE(far);
+    EXPECT_EQ(far->texels_nearest, 64U);
+    for (std::size_t i = 0; i < near->maps[0].values.size(); ++i) {
+      EXPECT_NEAR(near->maps[0].values[i], far->maps[0].values[i], 1e-6);
+    }
+  }
+}
+
+TEST(Bake, OcclusionInAPit) {
+  const Mesh low = mapped_sheet(1);
+  Mesh pit = test::sheet(1);  // its floor, and four walls of height 20
+  for (int i = 0; i < 4; ++i) {
+    const double a = i * std::numbers::pi / 2;
+    const auto corner = [&](double x, double z) {
+      const Vec2 at{std::cos(a) * 0.5 - std::sin(a) * x, std::sin(a) * 0.5 + std::cos(a) * x};
+      return Vec3{0.5 + at.x, 0.5 + at.y, z};
+    };
+    pit = test::both(
+        pit, test::bare_mesh({corner(-0.5, 0), corner(0.5, 0), corner(0.5, 20), corner(-0.5, 20)},
+                             {{0, 1, 2, 3}}));
+  }
+  const BakedMap maps[] = {BakedMap::occlusion};
+  BakeOptions options = small(8);
+  options.high_hard_angle = 0.1;
+  const auto deep = bake(low, {&pit}, maps, options);
+  ASSERT_TRUE(deep);
+  options.occlusion_distance = 1e-3;
+  const auto blind = bake(low, {&pit}, maps, options);
+  ASSERT_TRUE(blind);
+  EXPECT_LT(*deep->maps[0].at(4, 4), 0.02F);
+  EXPECT_EQ(*blind->maps[0].at(4, 4), 1);
+}
+
+TEST(Bake, ColourOfTheHighMesh) {
+  const Mesh low = mapped_sheet(1);
+  Mesh high = mapped_sheet(4);
+  Texture ramp(64, 64, 4);
+  for (int y = 0; y < 64; ++y) {
+    for (int x = 0; x < 64; ++x) {
+      float* value = ramp.at(x, y);
+      value[0] = (float(x) + 0.5F) / 64;
+      value[1] = (float(y) + 0.5F) / 64;
+      value[3] = 0.5F;
+    }
+  }
+  const BakedMap maps[] = {BakedMap::color};
+  const auto result = bake(low, {&high, &ramp}, maps, small(32));
+  ASSERT_TRUE(result);
+  EXPECT_EQ(result->maps[0].channels, 4);
+  for (int y = 2; y < 30; ++y) {
+    for (int x = 2; x < 30; ++x) {
+      const float* value = result->maps[0].at(x, y);
+      EXPECT_NEAR(value[0], (x + 0.5) / 32, 1e-5);
+      EXPECT_NEAR(value[1], (y + 0.5) / 32, 1e-5);
+      EXPECT_NEAR(value[3], 0.5, 1e-6);
+    }
+  }
+}
+
+TEST(Bake, ThreadsDoNotMatter) {
+  const Mesh low = mapped_ball(), high = test::ball(40, 1.1);
+  const BakedMap maps[] = {BakedMap::object_normals, BakedMap::occlusion};
+  BakeOptions options = small(64);
+  options.threads = 1;
+  const auto one = bake(low, {&high}, maps, options);
+  options.threads = 4;
+  const auto four = bake(low, {&high}, maps, options);
+  ASSERT_TRUE(one && four);
+  for (const std::size_t map : {0, 1}) EXPECT_EQ(one->maps[map].values, four->maps[map].values);
+  EXPECT_EQ(one->texels_used, four->texels_used);
+}
+
+TEST(Bake, Refuses) {
+  const Mesh low = mapped_sheet(1), bare = test::sheet(1), empty;
+  const BakedMap maps[] = {BakedMap::object_normals}, color[] = {BakedMap::color};
+  const auto kind = [&](const Mesh& a, const Mesh& b, std::span<const BakedMap> which,
+                        const BakeOptions& options) {
+    const auto result = bake(a, {&b}, which, options);
+    EXPECT_FALSE(result);
+    return result.error().kind;
+  };
+  EXPECT_EQ(kind(bare, bare, maps, small(8)), ErrorKind::input);
+  EXPECT_EQ(kind(empty, bare, maps, small(8)), ErrorKind::input);
+  EXPECT_EQ(kind(low, empty, maps, small(8)), ErrorKind::input);
+  EXPECT_EQ(kind(low, bare, color, small(8)), ErrorKind::usage);
+  EXPECT_EQ(kind(low, bare, {}, small(8)), ErrorKind::usage);
+  EXPECT_EQ(kind(low, bare, maps, small(0)), ErrorKind::usage);
+  const BakedMap twice[] = {BakedMap::occlusion, BakedMap::occlusion};
+  EXPECT_EQ(kind(low, bare, twice, small(8)), ErrorKind::usage);
+  BakeOptions options = small(64);
+  options.progress = [](double) { return false; };
+  EXPECT_EQ(kind(low, bare, maps, options), ErrorKind::interrupted);
+}
+
+}  // namespace
+}  // namespace wrapatlas

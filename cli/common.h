@@ -49,6 +49,7 @@ Command make_info_command(CLI::App& parser);
 Command make_unwrap_command(CLI::App& parser);
 Command make_bake_command(CLI::App& parser);
 Command make_bench_command(CLI::App& parser);
+Command make_render_command(CLI::App& parser);
 Command make_report_command(CLI::App& parser);
 
 /// Writes the object to a file, or to standard output for "-".

@@ -34,14 +34,14 @@ int run(int argc, char** argv) {
 
   const Command commands[] = {make_pack_command(parser),  make_check_command(parser),
                               make_info_command(parser),  make_unwrap_command(parser),
-                              make_bake_command(parser),  make_bench_command(parser),
-                              make_report_command(parser)};
+                              make_bake_command(parser),  make_render_command(parser),
+                              make_bench_command(parser), make_report_command(parser)};
   if (argc > 1 && argv[1][0] != '-' &&
       std::none_of(std::begin(commands), std::end(commands),
                    [&](const Command& command) { return command.app->get_name() == argv[1]; })) {
-    return report_error(
-        {wrapatlas::ErrorKind::usage, argv[1], "no such command",
-         "use unwrap, pack, bake, check, info, bench or report; wrapatlas --help says more"});
+    return report_error({wrapatlas::ErrorKind::usage, argv[1], "no such command",
+                         "use unwrap, pack, bake, render, check, info, bench or report; wrapatlas "
+                         "--help says more"});
   }
   try {
     parser.parse(argc, argv);

@@ -10,6 +10,8 @@ import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 COMMAND = os.environ["WRAPATLAS"]
+COMMANDS = ("unwrap", "pack", "bake", "render", "check", "info", "bench", "report")
+COMMAND_LINE = r"wrapatlas (" + "|".join(COMMANDS) + r")\b([^`#&\n]*)"
 PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", ROOT / "samples/README.md",
          ROOT / "tests/README.md", ROOT / "bench/README.md", ROOT / "bench/compare/README.md",
          *sorted((ROOT / "docs").rglob("*.md"))]
@@ -29,14 +31,13 @@ class Docs(unittest.TestCase):
     def test_commands_have_the_options_they_are_given(self):
         for page in PAGES:
             text = page.read_text(encoding="utf-8").replace("\\\n", " ")
-            for sub, rest in re.findall(r"wrapatlas (unwrap|pack|check|info|bench|report)\b([^`#&\n]*)", text):
+            for sub, rest in re.findall(COMMAND_LINE, text):
                 for option in re.findall(r"(?<!\S)(--?[a-z][a-z-]*)", rest):
                     with self.subTest(page=page_name(page), command=sub, option=option):
                         self.assertIn(option, options_of(sub))
 
     def test_options_named_in_the_text_exist(self):
-        known = set().union(*map(options_of, ("unwrap", "pack", "check", "info", "bench",
-                                           "report")))
+        known = set().union(*map(options_of, COMMANDS))
         others = {"--help-all", "--wrapatlas"}  # of the command itself, of make_images.py
         for page in [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]:
             text = re.sub(r"```.*?```", "", page.read_text(encoding="utf-8"), flags=re.S)

@@ -1,0 +1,245 @@
+// wrapatlas render: a picture of a model with its textures, and how like another picture it is.
+
+#include "wrapatlas/render.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "common.h"
+#include "io/file.h"
+#include "options.h"
+#include "output_paths.h"
+#include "wrapatlas/model.h"
+
+namespace wrapatlas::cli {
+namespace {
+
+enum class Space { tangent, object };
+constexpr Named<Space> kSpaces[] = {{"tangent", Space::tangent}, {"object", Space::object}};
+enum class Light { smooth, flat, none };
+constexpr Named<Light> kLights[] = {
+    {"smooth", Light::smooth}, {"flat", Light::flat}, {"none", Light::none}};
+enum class Filter { trilinear, bilinear };
+constexpr Named<Filter> kFilters[] = {{"trilinear", Filter::trilinear},
+                                      {"bilinear", Filter::bilinear}};
+
+struct RenderArguments {
+  std::string input, output, texture, normal_map, framed, other, json;
+  Space space = Space::tangent;
+  Light shade = Light::smooth;
+  Filter filter = Filter::trilinear;
+  Wrap wrap = Wrap::uv;
+  std::optional<double> level, hard_edges;
+  int texcoord = 0;
+  bool quiet = false;
+  RenderOptions options;
+};
+
+Status resolve(const CLI::App& app, RenderArguments& a) {
+  const bool bare = a.texture.empty() && a.normal_map.empty();
+  const std::string no_texture = "no texture is drawn", add = "add --texture or --normal-map";
+  const Ignored ignored[] = {
+      {"--space", a.normal_map.empty(), "there is no normal map", "add --normal-map"},
+      {"--shade", !a.normal_map.empty(), "the normal map says how it is lit", "leave one out"},
+      {"--filter", bare, no_texture, add},
+      {"--wrap", bare, no_texture, add},
+      {"--level", bare, no_texture, add},
+      {"--level", a.filter == Filter::bilinear, "bilinear filtering stays on level 0",
+       "leave one out"},
+      {"--hard-edges", !a.normal_map.empty() && a.space == Space::object,
+       "object space needs no other normals", "leave it out"},
+      {"--hard-edges", a.normal_map.empty() && a.shade != Light::smooth, "nothing is smooth",
+       "leave it out, or --shade"},
+  };
+  if (const Status ok = refuse_ignored(app, ignored); !ok) return ok;
+  if (!a.output.ends_with(".png")) {
+    return usage(a.output, "this picture is of pixels", "write .png");
+  }
+  RenderOptions& options = a.options;
+  options.shading = a.shade == Light::none   ? Shading::none
+                    : a.shade == Light::flat ? Shading::flat
+                                             : Shading::smooth;
+  if (!a.normal_map.empty()) {
+    options.shading = a.space == Space::object ? Shading::object_normals : Shading::tangent_normals;
+  }
+  options.wrap = a.wrap;
+  options.trilinear = a.filter == Filter::trilinear;
+  options.level = a.level.value_or(-1);
+  if (a.hard_edges) options.hard_angle = *a.hard_edges * std::numbers::pi / 180;
+  return check_texcoord(a.texcoord, std::span(&a.input, 1));
+}
+
+Status check_files(const RenderArguments& a, const Model& model) {
+  const OutputPath outputs[] = {{"-o", a.output}, {"--json", a.json}};
+  if (const Status ok = refuse_equal_outputs(outputs); !ok) return ok;
+  if (const Status ok = refuse_overwriting(a.input, model, outputs); !ok) return ok;
+  for (const OutputPath& output : outputs) {
+    if (output.path.empty() || output.path == "-") continue;
+    for (const std::string& read : {a.texture, a.normal_map, a.framed, a.other}) {
+      if (!read.empty() && same_file(output.path, read)) {
+        return usage(fmt::format("{} {}", output.option, output.path),
+                     "it would overwrite what is read", "give another name");
+      }
+    }
+    if (const Status ok = check_writable(output.path); !ok) return ok;
+  }
+  return Done{};
+}
+
+Status read_maps(const std::string& path, MipFilter filter, bool directions, MipMaps& maps) {
+  if (path.empty()) return Done{};
+  auto texture = load_texture(path);
+  if (!texture) return texture.error();
+  if (directions && texture->channels < 3) {
+    return Error{ErrorKind::input, path, "a grey picture is no normal map", "give one in colour"};
+  }
+  maps = make_mip_maps(std::move(*texture), filter);
+  return Done{};
+}
+
+/// Compares what both show: over the pixels that show the model in full.
+Result<Likeness> likeness_to(const std::string& path, const Rendering& rendering) {
+  const auto other = load_texture(path);
+  if (!other) return other.error();
+  const Texture& image = rendering.image;
+  if (other->width != image.width || other->height != image.height || other->channels != 3) {
+    return Error{ErrorKind::input, path,
+                 fmt::format("{} x {} pixels and {} channels, not {} x {} and 3", other->width,
+                             other->height, other->channels, image.width, image.height),
+                 "render it with the same --size and --views"};
+  }
+  if (std::find(rendering.covered.begin(), rendering.covered.end(), 1) == rendering.covered.end()) {
+    return Error{ErrorKind::input, path, "no pixel shows the model in full", "raise --size"};
+  }
+  return compare(image, *other, rendering.covered);
+}
+
+Json report_of(const RenderArguments& a, const Rendering& rendering,
+               const std::optional<Likeness>& likeness, double seconds) {
+  const auto covered = std::count(rendering.covered.begin(), rendering.covered.end(), 1);
+  Json report = {{"version", WRAPATLAS_VERSION},
+                 {"command", "render"},
+                 {"input", a.input},
+                 {"output", a.output},
+                 {"width", rendering.image.width},
+                 {"height", rendering.image.height},
+                 {"views", a.options.views},
+                 {"covered", covered}};
+  if (likeness) {
+    report["other"] = a.other;
+    // Equal pictures have no finite ratio, and JSON no word for that.
+    report["psnr"] = std::isfinite(likeness->psnr) ? Json(likeness->psnr) : Json();
+    report["ssim"] = likeness->ssim;
+  }
+  report["seconds"] = {{"total", seconds}};
+  report["peak_memory_mb"] = peak_memory_mb();
+  return report;
+}
+
+int run(const CLI::App& app, RenderArguments& a) {
+  const double start = seconds_now();
+  if (const Status ok = resolve(app, a); !ok) return report_error(ok.error());
+  LoadOptions load_options;
+  load_options.texcoord_set = a.texcoord;
+  const auto model = load_model(a.input, load_options);
+  if (!model) return report_error(model.error());
+  if (const Status ok = check_files(a, *model); !ok) return report_error(ok.error());
+  const bool textured = !a.texture.empty() || !a.normal_map.empty();
+  if (textured && model->mesh.texcoords.empty()) {
+    return report_error({ErrorKind::input, a.input, "it has no UVs for a texture",
+                         "unwrap it first, or give the model that the texture was made for"});
+  }
+  Mesh framed;
+  if (!a.framed.empty()) {
+    auto other = load_model(a.framed);
+    if (!other) return report_error(other.error());
+    framed = std::move(other->mesh);
+    a.options.framed = &framed;
+  }
+  MipMaps color, normals;
+  if (const Status ok = read_maps(a.texture, MipFilter::srgb, false, color); !ok) {
+    return report_error(ok.error());
+  }
+  if (const Status ok = read_maps(a.normal_map, MipFilter::normals, true, normals); !ok) {
+    return report_error(ok.error());
+  }
+  if (!color.levels.empty()) a.options.color = &color;
+  if (!normals.levels.empty()) a.options.normals = &normals;
+  a.options.v_points_down = model->v_points_down;
+  const Rendering rendering = render(model->mesh, a.options);
+  std::optional<Likeness> likeness;
+  if (!a.other.empty()) {
+    const auto found = likeness_to(a.other, rendering);
+    if (!found) return report_error(found.error());
+    likeness = *found;
+  }
+  OutputTransaction outputs;
+  if (const Status ok = save_texture(a.output, rendering.image); !ok) {
+    return report_error(ok.error());
+  }
+  const double seconds = seconds_now() - start;
+  if (!a.json.empty()) {
+    if (const Status ok = write_json(a.json, report_of(a, rendering, likeness, seconds)); !ok) {
+      return report_error(ok.error());
+    }
+  }
+  if (const Status ok = outputs.commit(); !ok) return report_error(ok.error());
+  if (a.quiet) return 0;
+  const std::string how_alike = likeness ? fmt::format("; beside {}: PSNR {:.2f} dB, SSIM {:.4f}",
+                                                       a.other, likeness->psnr, likeness->ssim)
+                                         : "";
+  say("{}: {}{}, {:.2f} s -> {}\n", a.input, quantity(std::size_t(a.options.views), "view"),
+      how_alike, seconds, a.output);
+  return 0;
+}
+
+}  // namespace
+
+Command make_render_command(CLI::App& parser) {
+  auto arguments = std::make_shared<RenderArguments>();
+  RenderArguments& a = *arguments;
+  CLI::App& app = *parser.add_subcommand("render", "Draw a model with its textures");
+  app.add_option("input", a.input, "Model: .obj .ply .off .stl .gltf .glb")->required();
+  app.add_option("-o,--output", a.output, "Where to write the picture")
+      ->required()
+      ->type_name("FILE.png");
+  app.add_option("--texture", a.texture, "Its colours, PNG or JPEG, sRGB")->type_name("FILE");
+  app.add_option("--normal-map", a.normal_map, "PNG or JPEG, as wrapatlas bake makes it")
+      ->type_name("FILE");
+  add_choice(app, "--space", a.space, kSpaces, "What the normal map is along");
+  add_choice(app, "--shade", a.shade, kLights,
+             "Without a normal map: by smooth normals, by those of the faces, or no light");
+  add_number(app, "--hard-edges", a.hard_edges, {0, 180, "degrees"},
+             "Smooth normals end at edges whose faces differ by more. Default: smooth");
+  add_choice(app, "--filter", a.filter, kFilters, "How textures are read");
+  add_choice(app, "--wrap", a.wrap, kWraps,
+             "Axes on which textures repeat; on the others the last texel goes on");
+  add_number(app, "--level", a.level, {0, 16},
+             "The mip level everywhere. Default: by the size of texels on the picture");
+  add_number(app, "--size", a.options.size, {16, 4096, "pixels"}, "Of each view, square");
+  add_number(app, "--views", a.options.views, {1, 64, "views"},
+             "Side by side: around the model, every second from below");
+  app.add_option("--framed-as", a.framed,
+                 "A model that the cameras are set up for instead, so that pictures of both lie "
+                 "over each other")
+      ->type_name("MODEL");
+  app.add_option("--compare", a.other,
+                 "A picture of the same size: the PSNR and SSIM over all pixels that show this "
+                 "model in full")
+      ->type_name("FILE");
+  add_texcoord(app, a.texcoord);
+  add_json(app, a.json);
+  app.add_flag("--quiet", a.quiet, "No summary");
+  app.footer(
+      "Exit status: 0 written; 2 usage; 3 unusable input or output.\n"
+      "Examples:\n"
+      "  wrapatlas render scan.ply -o scan.png --views 4\n"
+      "  wrapatlas render low.glb -o low.png --views 4 --normal-map normal.png \\\n"
+      "    --framed-as scan.ply --compare scan.png");
+  return {&app, [arguments, &app] { return run(app, *arguments); }};
+}
+
+}  // namespace wrapatlas::cli

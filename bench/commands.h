@@ -27,11 +27,18 @@ struct FlattenBenchOptions {
   int stride = 1;
 };
 
+struct SeamBenchOptions {
+  std::string low, high;
+  int resolution = 256;
+  int views = 12, size = 512;
+};
+
 int bench_pack(const ChartOptions& charts, const PackBenchOptions& bench);
 int bench_raster(const ChartOptions& options);
 int bench_slide(const ChartOptions& options);
 int bench_io(const IoBenchOptions& options);
 int bench_mesh();
 int bench_flatten(const FlattenBenchOptions& options);
+int bench_seams(const SeamBenchOptions& options);
 
 }  // namespace wrapatlas::bench

@@ -63,6 +63,15 @@ int main(int argc, char** argv) {
   flatten_app.add_option("--stride", flatten.stride, "Take every N-th file alone")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
+  SeamBenchOptions seams;
+  CLI::App& seams_app = *app.add_subcommand(
+      "seams", "Errors of a baked normal map along borders, beside those inside charts");
+  seams_app.add_option("low", seams.low, "Model with a packed atlas")->required();
+  seams_app.add_option("high", seams.high, "Model to be baked")->required();
+  seams_app.add_option("--resolution", seams.resolution, "Texels of the atlas, a side")
+      ->capture_default_str();
+  seams_app.add_option("--views", seams.views, "Pictures around the model")->capture_default_str();
+  seams_app.add_option("--size", seams.size, "Pixels of each, a side")->capture_default_str();
   CLI11_PARSE(app, argc, argv);
 
   print_machine();
@@ -71,5 +80,6 @@ int main(int argc, char** argv) {
   if (slide_app.parsed()) return bench_slide(charts);
   if (mesh_app.parsed()) return bench_mesh();
   if (flatten_app.parsed()) return bench_flatten(flatten);
+  if (seams_app.parsed()) return bench_seams(seams);
   return io_app.parsed() ? bench_io(io) : 2;
 }

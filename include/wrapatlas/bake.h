@@ -24,7 +24,7 @@ struct BakeOptions {
   Wrap wrap = Wrap::uv;             ///< axes on which the atlas repeats; elsewhere what is outside
                                     ///< [0, 1] is not baked
   bool v_points_down = false;       ///< of the low mesh's UVs, as Model has it
-  int samples = 2;  ///< a texel is the mean of so many, squared; those on charts count; 1 to 16
+  int samples = 2;                  ///< a texel is the mean of so many, squared; 1 to 16
   /// How far from the low mesh the high one is looked for along the normal, in the meshes' units;
   /// 0: twice the largest distance of a corner or a middle of a low face to the high mesh.
   double distance = 0;

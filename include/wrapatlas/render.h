@@ -43,9 +43,9 @@ struct Rendering {
 };
 
 /// Parallel projection, as draw_mesh has it; 3 x 3 samples a pixel, averaged as light. The light is
-/// the same for all shadings, and moves with the camera: 0.25 from everywhere, 0.55 from the upper
-/// left, 0.2 from the viewer; faces seen from behind are lit as if turned. Level of detail: where a
-/// texel and a pixel have the same area it is 0; one value per triangle. Faces without UVs get
+/// the same for all shadings, and moves with the camera: 0.12 from everywhere, 0.7 from the upper
+/// left, 0.18 from the viewer; faces seen from behind are lit as if turned. Level of detail: where
+/// a texel and a pixel have the same area it is 0; one value per triangle. Faces without UVs get
 /// level 0's value at (0, 0). Preconditions: both meshes pass validate_mesh; `normals` is there if
 /// the shading asks for it. O(triangles + samples) a view; some 60 bytes a sample of one view.
 Rendering render(const Mesh& mesh, const RenderOptions& options = {});

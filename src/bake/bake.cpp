@@ -101,36 +101,36 @@ class Baker {
     }
   }
 
+  /// Samples beyond the border of the texel's chart count as well: its centre would move else.
   void bake_texel(const std::vector<TexelSample>& samples, int row, int x, int y) {
-    const int across = options_.samples;
-    const std::size_t texel = std::size_t{1} * y * options_.width + static_cast<std::size_t>(x);
-    const TexelSample* nearest = nullptr;
+    const auto across = static_cast<std::size_t>(options_.samples);
+    const auto width = static_cast<std::size_t>(options_.width);
+    const std::size_t first = static_cast<std::size_t>(row) * across * width * across +
+                              static_cast<std::size_t>(x) * across;
+    const auto sample = [&](std::size_t i) -> const TexelSample& {
+      return samples[first + i / across * width * across + i % across];
+    };
+    const TexelSample* nearest = &sample(0);
+    for (std::size_t i = 1; i < across * across; ++i) {
+      if (sample(i).distance < nearest->distance) nearest = &sample(i);
+    }
+    if (nearest->triangle == kNone) return;
+    const std::uint32_t chart = samples_.chart(nearest->triangle);
+    const std::size_t texel = static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x);
     Sums sums{};
     int count = 0;
     bool missed = false;
-    const auto add = [&](const TexelSample& sample) {
-      missed |= !add_sample(sample, texel * 256 + static_cast<std::size_t>(count), sums);
+    for (std::size_t i = 0; i < across * across; ++i) {
+      const TexelSample& one = sample(i);
+      if (one.triangle == kNone || samples_.chart(one.triangle) != chart) continue;
+      missed |= !add_sample(one, texel * 256 + i, sums) && one.is_on();
       ++count;
-    };
-    for (int j = 0; j < across; ++j) {
-      const std::size_t begin =
-          (std::size_t{1} * (row * across + j) * options_.width + static_cast<std::size_t>(x)) *
-          static_cast<std::size_t>(across);
-      for (int i = 0; i < across; ++i) {
-        const TexelSample& sample = samples[begin + static_cast<std::size_t>(i)];
-        if (sample.triangle == kNone) continue;
-        if (nearest == nullptr || sample.distance < nearest->distance) nearest = &sample;
-        if (sample.is_on()) add(sample);
-      }
     }
-    if (nearest == nullptr) return;
     reached_[texel] = 1;
-    if (count > 0) {
+    if (nearest->is_on()) {
       result_.inside[texel] = 1;
       ++used_;
       if (missed) ++nearest_;
-    } else {
-      add(*nearest);
     }
     for (std::size_t m = 0; m < maps_.size(); ++m) write(m, x, y, sums[m], count);
   }

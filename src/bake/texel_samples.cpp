@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "mesh/union_find.h"
 #include "raster/row_scan.h"
 
 namespace wrapatlas {
@@ -74,6 +75,7 @@ TexelSamples::TexelSamples(const Mesh& mesh, int width, int height, Wrap wrap, b
       across_(across),
       wrap_(wrap),
       v_points_down_(v_points_down) {
+  find_charts();
   std::vector<Image> images;
   for (std::uint32_t triangle = 0; triangle < mesh.face_count(); ++triangle) {
     add_images(triangle, images);
@@ -95,6 +97,26 @@ TexelSamples::TexelSamples(const Mesh& mesh, int width, int height, Wrap wrap, b
       images_[next[static_cast<std::size_t>(band)]++] = image;
     }
   }
+}
+
+void TexelSamples::find_charts() {
+  // Corners in the order of their UVs: equal ones come together.
+  std::vector<std::uint32_t> corners;
+  for (std::uint32_t c = 0; c < mesh_.corner_count(); ++c) {
+    if (mesh_.corner_texcoord[c] != kNone) corners.push_back(c);
+  }
+  const auto uv = [&](std::uint32_t c) {
+    const Vec2 p = mesh_.texcoords[mesh_.corner_texcoord[c]];
+    return std::pair(p.x, p.y);
+  };
+  std::sort(corners.begin(), corners.end(),
+            [&](std::uint32_t a, std::uint32_t b) { return uv(a) < uv(b); });
+  UnionFind sets(mesh_.face_count());
+  for (std::size_t i = 1; i < corners.size(); ++i) {
+    if (uv(corners[i]) == uv(corners[i - 1])) sets.unite(corners[i] / 3, corners[i - 1] / 3);
+  }
+  chart_.resize(mesh_.face_count());
+  for (std::uint32_t face = 0; face < chart_.size(); ++face) chart_[face] = sets.find(face);
 }
 
 std::array<Vec2, 3> TexelSamples::corners(std::uint32_t triangle) const {

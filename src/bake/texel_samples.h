@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <vector>
 
 #include "wrapatlas/mesh.h"
@@ -11,8 +12,8 @@ namespace wrapatlas {
 
 /// Where a sample lies.
 struct TexelSample {
-  std::uint32_t triangle = kNone;   ///< that it lies on, or the nearest
-  float distance = 0;               ///< texels from it; 0: on it
+  std::uint32_t triangle = kNone;                           ///< that it lies on, or the nearest
+  float distance = std::numeric_limits<float>::infinity();  ///< texels from it; 0: on it
   std::array<double, 3> weights{};  ///< of its corners; beyond the triangle some are negative
   [[nodiscard]] bool is_on() const { return triangle != kNone && distance == 0; }
 };
@@ -34,6 +35,9 @@ class TexelSamples {
   /// The samples of a band, in rows of width * across. On a tie the first face has it. Thread safe.
   void read_band(std::size_t band, std::vector<TexelSample>& samples) const;
 
+  /// Triangles that hang together by corners on the atlas have one number.
+  [[nodiscard]] std::uint32_t chart(std::uint32_t triangle) const { return chart_[triangle]; }
+
   /// Corners in texels, rows from the top.
   [[nodiscard]] std::array<Vec2, 3> corners(std::uint32_t triangle) const;
 
@@ -43,6 +47,7 @@ class TexelSamples {
     std::uint32_t triangle;
     std::int32_t x, y;  ///< atlases
   };
+  void find_charts();
   void add_images(std::uint32_t triangle, std::vector<Image>& images);
   [[nodiscard]] std::pair<int, int> bands_of(const Image& image) const;
   void draw(const Image& image, int first_row, int row_count,
@@ -53,6 +58,7 @@ class TexelSamples {
   Wrap wrap_;
   bool v_points_down_;
   std::size_t faces_without_uv_ = 0;
+  std::vector<std::uint32_t> chart_;     ///< per triangle
   std::vector<std::size_t> band_begin_;  ///< per band and one more, into
   std::vector<Image> images_;            ///< by band, then by triangle
 };

@@ -101,7 +101,7 @@ class Shader {
 
   [[nodiscard]] double light_on(const Vec3& normal, std::uint32_t triangle,
                                 const Camera& camera) const {
-    constexpr double kEverywhere = 0.25, kKey = 0.55, kViewer = 0.2;
+    constexpr double kEverywhere = 0.12, kKey = 0.7, kViewer = 0.18;
     const Vec3 key = unit(-0.5 * camera.right + 0.6 * camera.up + 0.7 * camera.back);
     const Vec3 n = dot(face_normal(triangle), camera.back) < 0 ? -1.0 * normal : normal;
     return kEverywhere + kKey * std::max(0.0, dot(n, key)) +

@@ -59,10 +59,13 @@ def pack(charts, padding, seconds=20.0, seed=0, threads=2, **_):
         if best is not None and number >= TRIES:
             break
         begin = time.monotonic()
-        solution = solved(outlines, side, padding * side / charts.resolution, seconds / TRIES, seed,
-                          threads)
+        solution = solved_or_none(outlines, side, padding * side / charts.resolution,
+                                  seconds / TRIES, seed, threads)
         took = time.monotonic() - begin
         total += took
+        if solution is None:
+            low, side = side, 1.3 * side
+            continue
         if solution.width <= side:
             high = min(high, side)
             best = (solution, side, took)
@@ -77,6 +80,16 @@ def pack(charts, padding, seconds=20.0, seed=0, threads=2, **_):
     if best is None:
         raise ValueError("no square was found")
     return placed_uvs(charts, *best[:2]), None, total, best[2]
+
+
+def solved_or_none(outlines, height, *more):
+    """None where a chart is longer than the strip is high: then the program panics."""
+    try:
+        return solved(outlines, height, *more)
+    except BaseException as panic:  # pyo3's PanicException is no Exception
+        if type(panic).__name__ != "PanicException":
+            raise
+        return None
 
 
 def solved(outlines, height, separation, seconds, seed, threads):

@@ -47,6 +47,7 @@ Command make_pack_command(CLI::App& parser);
 Command make_check_command(CLI::App& parser);
 Command make_info_command(CLI::App& parser);
 Command make_unwrap_command(CLI::App& parser);
+Command make_simplify_command(CLI::App& parser);
 Command make_bench_command(CLI::App& parser);
 Command make_report_command(CLI::App& parser);
 

@@ -29,14 +29,14 @@ class Docs(unittest.TestCase):
     def test_commands_have_the_options_they_are_given(self):
         for page in PAGES:
             text = page.read_text(encoding="utf-8").replace("\\\n", " ")
-            for sub, rest in re.findall(r"wrapatlas (unwrap|pack|check|info|bench|report)\b([^`#&\n]*)", text):
+            for sub, rest in re.findall(r"wrapatlas (unwrap|simplify|pack|check|info|bench|report)\b([^`#&\n]*)", text):
                 for option in re.findall(r"(?<!\S)(--?[a-z][a-z-]*)", rest):
                     with self.subTest(page=page_name(page), command=sub, option=option):
                         self.assertIn(option, options_of(sub))
 
     def test_options_named_in_the_text_exist(self):
-        known = set().union(*map(options_of, ("unwrap", "pack", "check", "info", "bench",
-                                           "report")))
+        known = set().union(*map(options_of, ("unwrap", "simplify", "pack", "check", "info",
+                                           "bench", "report")))
         others = {"--help-all", "--wrapatlas"}  # of the command itself, of make_images.py
         for page in [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]:
             text = re.sub(r"```.*?```", "", page.read_text(encoding="utf-8"), flags=re.S)
@@ -73,6 +73,7 @@ class Docs(unittest.TestCase):
             unwrapped = pathlib.Path(folder) / "unwrapped.glb"
             for command, arguments in (("pack", (sample, "-o", packed, "--grid", "64")),
                                        ("unwrap", (sample, "-o", unwrapped, "--time", "0")),
+                                       ("simplify", (sample, "-o", unwrapped, "--faces", "9%")),
                                        ("check", (packed, "--padding", "9")), ("info", (sample,))):
                 run = subprocess.run([COMMAND, command, *arguments, "--json", "-"],
                                      capture_output=True, text=True)

@@ -1,0 +1,20 @@
+// A mesh of polygons as one of triangles.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "wrapatlas/mesh.h"
+
+namespace wrapatlas {
+
+struct Triangulated {
+  Mesh mesh;  ///< the positions and texcoords of the source; a face has UVs at all corners or at
+              ///< none
+  std::vector<std::uint32_t> source;  ///< per triangle: the face; ascending
+  std::uint32_t dropped = 0;          ///< triangles that use a point twice
+};
+
+Triangulated triangulated(const Mesh& mesh);
+
+}  // namespace wrapatlas

@@ -20,6 +20,10 @@ class Failure(Exception):
     """A packing or its check went wrong."""
 
 
+def default_command():
+    return os.environ.get("WRAPATLAS", str(REPOSITORY / "build/release/cli/wrapatlas"))
+
+
 def add_options(parser, resolution="1024", padding="2", threads="0"):
     """The options that every script has, with the script's own defaults."""
     parser.add_argument("--resolution", default=resolution,
@@ -28,9 +32,8 @@ def add_options(parser, resolution="1024", padding="2", threads="0"):
                         help=f"texels between charts; default {padding}")
     parser.add_argument("--threads", default=threads,
                         help=f"of wrapatlas; 0: as many as the machine has; default {threads}")
-    parser.add_argument("--wrapatlas", default=os.environ.get(
-        "WRAPATLAS", str(REPOSITORY / "build/release/cli/wrapatlas")),
-        help="the command to run; default: $WRAPATLAS, else the release build")
+    parser.add_argument("--wrapatlas", default=default_command(),
+                        help="the command to run; default: $WRAPATLAS, else the release build")
 
 
 def add_packing_options(parser, time):

@@ -30,18 +30,20 @@ int run(int argc, char** argv) {
       "  wrapatlas info model.glb\n"
       "  wrapatlas pack model.glb -o packed.glb --resolution 2048 --padding 4 --image atlas.png\n"
       "  wrapatlas unwrap bare.obj -o unwrapped.obj --image atlas.png\n"
+      "  wrapatlas simplify scan.ply -o low.obj --faces 1%\n"
       "  wrapatlas check packed.glb --ref model.glb --resolution 2048 --padding 4 --wrap uv");
 
-  const Command commands[] = {make_pack_command(parser),  make_check_command(parser),
-                              make_info_command(parser),  make_unwrap_command(parser),
-                              make_bake_command(parser),  make_render_command(parser),
-                              make_bench_command(parser), make_report_command(parser)};
+  const Command commands[] = {make_pack_command(parser),     make_check_command(parser),
+                              make_info_command(parser),     make_unwrap_command(parser),
+                              make_simplify_command(parser), make_bake_command(parser),
+                              make_transfer_command(parser), make_render_command(parser),
+                              make_bench_command(parser),    make_report_command(parser)};
   if (argc > 1 && argv[1][0] != '-' &&
       std::none_of(std::begin(commands), std::end(commands),
                    [&](const Command& command) { return command.app->get_name() == argv[1]; })) {
     return report_error({wrapatlas::ErrorKind::usage, argv[1], "no such command",
-                         "use unwrap, pack, bake, render, check, info, bench or report; wrapatlas "
-                         "--help says more"});
+                         "use unwrap, pack, simplify, bake, transfer, render, check, info, bench "
+                         "or report; wrapatlas --help says more"});
   }
   try {
     parser.parse(argc, argv);

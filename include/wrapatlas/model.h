@@ -10,6 +10,7 @@
 
 #include "wrapatlas/atlas.h"
 #include "wrapatlas/mesh.h"
+#include "wrapatlas/model_textures.h"
 #include "wrapatlas/result.h"
 
 namespace wrapatlas {
@@ -37,6 +38,11 @@ class Model {
     /// which has checked that the atlas belongs to the mesh.
     virtual Status save(const std::filesystem::path& path, const Mesh& mesh,
                         const AtlasMesh& atlas) const = 0;
+    /// For load_textures, and for save_model with other textures. Error: usage, where the format
+    /// has none.
+    [[nodiscard]] virtual Result<ModelTextures> textures() const;
+    virtual Status save(const std::filesystem::path& path, const Mesh& mesh, const AtlasMesh& atlas,
+                        std::span<const NewTexture> textures) const;
   };
 
   Mesh mesh;
@@ -62,6 +68,11 @@ Result<Model> load_model_bytes(std::string bytes, FileFormat format, std::string
 /// one object, alone. Written to a temporary file beside `path` and renamed, so a failure leaves
 /// nothing half-written.
 Status save_model(const Model& model, const AtlasMesh& atlas, const std::filesystem::path& path);
+
+/// The same with other textures in the place of those that they were made from. `path` is of the
+/// model's own format. Errors: usage (another format, or one without textures), output.
+Status save_model(const Model& model, const AtlasMesh& atlas, const std::filesystem::path& path,
+                  std::span<const NewTexture> textures);
 
 /// A mesh with `atlas` applied: what load_model would read back, but for rounding.
 Mesh apply_atlas(const Mesh& mesh, const AtlasMesh& atlas);

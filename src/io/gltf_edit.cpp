@@ -91,6 +91,16 @@ std::uint64_t GltfEdit::add_array(Json accessor, NewView bytes, std::size_t stri
   return accessors.size() - 1;
 }
 
+std::uint64_t GltfEdit::add_image(const std::string& name, std::string bytes,
+                                  const char* mime_type) {
+  Json& views = json["bufferViews"];
+  Json& images = json["images"];
+  images.push_back({{"name", name}, {"mimeType", mime_type}, {"bufferView", views.size()}});
+  views.push_back({{"buffer", 0}, {"byteOffset", 0}, {"byteLength", bytes.size()}});
+  new_views_.push_back({std::move(bytes), {}, views.size() - 1});
+  return images.size() - 1;
+}
+
 void GltfEdit::drop_stale_extensions() {
   // The views of an optional compression hold all the data themselves.
   for (const char* extension : {"EXT_meshopt_compression", "KHR_meshopt_compression"}) {
@@ -151,6 +161,11 @@ void GltfEdit::finish() {
   const std::vector<std::uint64_t> left = move_into("bufferViews", old_views_, dead);
   if (json.contains("accessors")) {
     for (Json& accessor : json["accessors"]) for_each_view_use(accessor, renumber(old_views_));
+  }
+  if (json.contains("images")) {
+    for (Json& image : json["images"]) {
+      if (image.contains("bufferView")) renumber(old_views_)(image["bufferView"]);
+    }
   }
   for (NewView& view : new_views_) view.view = final_number_[view.view];
 

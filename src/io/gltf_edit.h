@@ -49,6 +49,9 @@ class GltfEdit {
   /// buffers are used.
   std::uint64_t add_accessor(Json accessor, std::string_view bytes, GltfTarget target);
 
+  /// Adds an image, its file's bytes in a buffer view. Returns its number.
+  std::uint64_t add_image(const std::string& name, std::string bytes, const char* mime_type);
+
   /// Drops what only the old data needed, and lays out the buffers. Call it once, last.
   void finish();
 

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "io/gltf_arrays.h"
+#include "io/gltf_images.h"
 #include "io/gltf_primitives.h"
 #include "io/gltf_save.h"
 #include "io/gltf_textures.h"
@@ -27,11 +28,21 @@ class GltfSource : public Model::Source {
 
   Status save(const std::filesystem::path& path, const Mesh& mesh,
               const AtlasMesh& atlas) const override {
+    return save(path, mesh, atlas, {});
+  }
+
+  [[nodiscard]] Result<ModelTextures> textures() const override {
+    return read_gltf_textures(*contents_);
+  }
+
+  Status save(const std::filesystem::path& path, const Mesh& mesh, const AtlasMesh& atlas,
+              std::span<const NewTexture> textures) const override {
     GltfEdit edit(contents_->file);
     const Result<GltfPlans> plans = plan_vertices(*contents_, mesh, atlas);
     if (!plans) return plans.error();
     if (Status written = write_arrays(*contents_, *plans, edit); !written) return written;
     set_repeating_samplers(edit.json, texture_uses(*contents_), atlas.wrap);
+    if (!textures.empty()) replace_gltf_textures(*contents_, textures, edit);
     edit.finish();
     return save_gltf(contents_->file, edit, path, wants_glb(path, contents_->file.binary));
   }

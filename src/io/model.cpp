@@ -119,6 +119,36 @@ Result<Model> load_model_bytes(std::string bytes, FileFormat format, std::string
   return model;
 }
 
+Result<ModelTextures> Model::Source::textures() const {
+  return Error{ErrorKind::usage, "", "textures are read from glTF alone", "export it as .glb"};
+}
+
+Status Model::Source::save(const std::filesystem::path& path, const Mesh&, const AtlasMesh&,
+                           std::span<const NewTexture>) const {
+  return Error{ErrorKind::usage, path.string(), "textures are written to glTF alone",
+               "export the model as .glb"};
+}
+
+Result<ModelTextures> load_textures(const Model& model) {
+  if (model.source) return model.source->textures();
+  return Error{ErrorKind::usage, "", "this format has no textures", "export it as .glb"};
+}
+
+Status save_model(const Model& model, const AtlasMesh& atlas, const std::filesystem::path& path,
+                  std::span<const NewTexture> textures) {
+  const Result<FileFormat> format = format_from_path(path);
+  if (!format) return format.error();
+  const auto is_gltf = [](FileFormat f) { return f == FileFormat::gltf || f == FileFormat::glb; };
+  if (!model.source || (*format != model.format && !(is_gltf(*format) && is_gltf(model.format)))) {
+    return Error{ErrorKind::usage, path.string(), "another format than the model's",
+                 "keep its ending: its materials would be lost"};
+  }
+  if (Status fits = check_fit(model.mesh, atlas); !fits) return fits;
+  OutputTransaction files;
+  if (Status ok = model.source->save(path, model.mesh, atlas, textures); !ok) return ok;
+  return files.commit();
+}
+
 Status save_model(const Model& model, const AtlasMesh& atlas, const std::filesystem::path& path) {
   const Result<FileFormat> format = format_from_path(path);
   if (!format) return format.error();

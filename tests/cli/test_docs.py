@@ -10,7 +10,7 @@ import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 COMMAND = os.environ["WRAPATLAS"]
-COMMANDS = ("unwrap", "pack", "bake", "render", "check", "info", "bench", "report")
+COMMANDS = ("unwrap", "pack", "simplify", "bake", "transfer", "render", "check", "info", "bench", "report")
 COMMAND_LINE = r"wrapatlas (" + "|".join(COMMANDS) + r")\b([^`#&\n]*)"
 PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", ROOT / "samples/README.md",
          ROOT / "tests/README.md", ROOT / "bench/README.md", ROOT / "bench/compare/README.md",
@@ -74,6 +74,7 @@ class Docs(unittest.TestCase):
             unwrapped = pathlib.Path(folder) / "unwrapped.glb"
             for command, arguments in (("pack", (sample, "-o", packed, "--grid", "64")),
                                        ("unwrap", (sample, "-o", unwrapped, "--time", "0")),
+                                       ("simplify", (sample, "-o", unwrapped, "--faces", "9%")),
                                        ("check", (packed, "--padding", "9")), ("info", (sample,))):
                 run = subprocess.run([COMMAND, command, *arguments, "--json", "-"],
                                      capture_output=True, text=True)

@@ -1,0 +1,39 @@
+// The textures of a loaded model: what its materials use, and others in their place.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "wrapatlas/transfer.h"
+
+namespace wrapatlas {
+
+/// A place of a material at which a texture is named, and read by the UVs that were loaded.
+struct TextureUse {
+  std::uint32_t material = 0;  ///< as Model::face_material numbers it
+  std::string place;           ///< within the material: "normalTexture"
+  TextureRole role = TextureRole::data;
+  std::size_t image = 0;  ///< into ModelTextures::images
+  TransferSource source;  ///< how it is read; its texture is null
+};
+
+struct ModelTextures {
+  std::vector<Texture> images;
+  std::vector<TextureUse> uses;  ///< in the order of the file
+  bool has_tangents = false;     ///< vertices have tangents of their own
+};
+
+/// A texture that takes the place of others.
+struct NewTexture {
+  std::string png;                ///< the bytes of the file
+  std::string name;               ///< "baseColorTexture"
+  std::vector<std::size_t> uses;  ///< of ModelTextures::uses
+};
+
+class Model;
+
+/// Decodes all textures that follow the loaded UVs. Errors: usage (a format without textures),
+/// input (a texture that is missing, or neither PNG nor JPEG).
+Result<ModelTextures> load_textures(const Model& model);
+
+}  // namespace wrapatlas

@@ -1,0 +1,226 @@
+#include "io/gltf_images.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "io/file.h"
+#include "io/gltf_references.h"
+#include "io/gltf_textures.h"
+
+namespace wrapatlas {
+namespace {
+
+constexpr const char* kTransform = "KHR_texture_transform";
+
+std::vector<GltfTextureUse> uses_that_follow(const GltfContents& contents) {
+  std::vector<GltfTextureUse> uses = texture_uses(contents);
+  std::erase_if(uses, [](const GltfTextureUse& use) { return !use.follows_atlas; });
+  return uses;
+}
+
+/// By the name of its place. What is not known is data, which is changed the least.
+TextureRole role_of(std::string place) {
+  std::transform(place.begin(), place.end(), place.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (place.ends_with("normaltexture")) return TextureRole::normals;
+  for (const char* color :
+       {"colortexture", "emissivetexture", "diffusetexture", "specularglossinesstexture"}) {
+    if (place.ends_with(color)) return TextureRole::color;
+  }
+  return TextureRole::data;
+}
+
+Repeat repeat_of(const Json& sampler, const char* key) {
+  constexpr std::uint64_t kClamp = 33071, kMirror = 33648;
+  const auto mode = integer_member(sampler, key, 0);
+  return mode == kClamp ? Repeat::clamp : mode == kMirror ? Repeat::mirror : Repeat::repeat;
+}
+
+/// offset + rotation * (scale * uv), counter-clockwise as one looks at the picture.
+std::array<double, 6> matrix_of(const Json& transform) {
+  const auto pair = [&](const char* key, double otherwise) {
+    const Json& values = array_member(transform, key);
+    const bool usable = values.size() == 2 && values[0].is_number() && values[1].is_number();
+    return usable ? Vec2{values[0].get<double>(), values[1].get<double>()}
+                  : Vec2{otherwise, otherwise};
+  };
+  const Json* angle = find_member(transform, "rotation");
+  const double rotation = angle != nullptr && angle->is_number() ? angle->get<double>() : 0;
+  const Vec2 offset = pair("offset", 0), scale = pair("scale", 1);
+  const double c = std::cos(rotation), s = std::sin(rotation);
+  return {c * scale.x, s * scale.y, offset.x, -s * scale.x, c * scale.y, offset.y};
+}
+
+TransferSource source_of(const Json& json, const GltfTextureUse& use) {
+  TransferSource source;
+  const auto& samplers = array_member(json, "samplers");
+  const auto sampler = integer_member(json["textures"][use.texture], "sampler", samplers.size());
+  if (sampler && *sampler < samplers.size()) {
+    source.across = repeat_of(samplers[*sampler], "wrapS");
+    source.down = repeat_of(samplers[*sampler], "wrapT");
+  }
+  if (use.transformed) source.matrix = matrix_of(json[use.where]["extensions"][kTransform]);
+  return source;
+}
+
+class Reader {
+ public:
+  explicit Reader(const GltfContents& contents) : contents_(contents), file_(contents.file) {}
+
+  Result<ModelTextures> read() {
+    for (const GltfTextureUse& use : uses_that_follow(contents_)) {
+      if (Status ok = add(use); !ok) return ok.error();
+    }
+    for (const GltfPrimitive& primitive : contents_.primitives) {
+      const Json& attributes = primitive_json(file_.json, primitive)["attributes"];
+      textures_.has_tangents = textures_.has_tangents || attributes.contains("TANGENT");
+    }
+    return std::move(textures_);
+  }
+
+ private:
+  Status add(const GltfTextureUse& use) {
+    const std::string place = fmt::format("texture {}", use.texture);
+    const Json& images = array_member(file_.json, "images");
+    const auto image = integer_member(file_.json["textures"][use.texture], "source", images.size());
+    if (!image || *image >= images.size()) {
+      return file_.error(place, "it has no PNG or JPEG picture", "convert its pictures to PNG");
+    }
+    const auto [found, is_new] = number_.try_emplace(*image, textures_.images.size());
+    if (is_new) {
+      const std::string name = fmt::format("image {}", *image);
+      const auto bytes = bytes_of(images[*image], name);
+      if (!bytes) return bytes.error();
+      auto texture = decode_texture(*bytes, fmt::format("{}: {}", file_.name, name));
+      if (!texture) return texture.error();
+      textures_.images.push_back(std::move(*texture));
+    }
+    const std::string path = use.where.to_string();  // "/materials/3/normalTexture"
+    const std::size_t begin = path.find('/', std::string("/materials/").size());
+    const auto material =
+        static_cast<std::uint32_t>(std::stoul(path.substr(std::string("/materials/").size())));
+    textures_.uses.push_back({material + 1, path.substr(begin + 1), role_of(path), found->second,
+                              source_of(file_.json, use)});
+    return Done{};
+  }
+
+  Result<std::string> bytes_of(const Json& image, const std::string& place) const {
+    const Json& views = array_member(file_.json, "bufferViews");
+    const auto view = integer_member(image, "bufferView", views.size());
+    if (view && *view < views.size()) {
+      const auto buffer = integer_member(views[*view], "buffer", 0);
+      const auto offset = integer_member(views[*view], "byteOffset", 0);
+      const auto length = integer_member(views[*view], "byteLength", 0);
+      const std::string_view all = file_.buffers[*buffer].bytes;
+      if (all.empty()) return file_.error(place, "its buffer is not in the file");
+      return std::string(all.substr(*offset, *length));
+    }
+    const Json* uri = find_member(image, "uri");
+    if (uri == nullptr || !uri->is_string()) return file_.error(place, "it has no data");
+    const auto& text = uri->get_ref<const std::string&>();
+    if (text.starts_with("data:")) {
+      const std::size_t comma = text.find(',');
+      const auto bytes = comma == std::string::npos
+                             ? std::nullopt
+                             : base64_decode(std::string_view(text).substr(comma + 1));
+      if (!bytes) return file_.error(place, "its data URI cannot be decoded");
+      return *bytes;
+    }
+    const auto name = is_plain_relative_uri(text) ? percent_decode(text) : std::nullopt;
+    if (!name) return file_.error(place, "its URI is no file beside the model");
+    return read_file(file_.folder / *name);
+  }
+
+  const GltfContents& contents_;
+  const GltfFile& file_;
+  ModelTextures textures_;
+  std::map<std::uint64_t, std::size_t> number_;  ///< of images
+};
+
+/// Calls visit(index) for each reference to an image, those of extensions of textures included.
+template <typename Visit>
+void for_each_image_use(Json& json, Visit&& visit) {
+  if (!json.contains("textures")) return;
+  for (Json& texture : json["textures"]) {
+    if (texture.contains("source")) visit(texture["source"]);
+    if (!texture.contains("extensions") || !texture["extensions"].is_object()) continue;
+    for (auto& [name, extension] : texture["extensions"].items()) {
+      if (extension.is_object() && extension.contains("source")) visit(extension["source"]);
+    }
+  }
+}
+
+/// Textures that no material names any more keep their numbers, but let go of their pictures.
+void empty_unused_textures(Json& json, const std::set<std::uint64_t>& candidates,
+                           const GltfContents& contents) {
+  std::set<std::uint64_t> used;
+  for (const GltfTextureUse& use : texture_uses(contents)) {
+    const auto now = integer_member(json[use.where], "index", 0);
+    if (now) used.insert(*now);
+  }
+  for (const std::uint64_t texture : candidates) {
+    if (used.count(texture) != 0) continue;
+    json["textures"][texture].erase("source");
+    json["textures"][texture].erase("extensions");
+  }
+}
+
+/// Renumbers the images that are left. Not where an unknown part of the file may name images.
+void drop_unused_images(Json& json) {
+  if (json.contains("extensions") || !json.contains("images")) return;
+  Json& images = json["images"];
+  std::vector<bool> used(images.size());
+  for_each_image_use(json, [&](Json& index) {
+    const auto number = as_integer(index);
+    if (number && *number < used.size()) used[*number] = true;
+  });
+  std::vector<std::uint64_t> number(images.size());
+  Json kept = Json::array();
+  for (std::size_t i = 0; i < images.size(); ++i) {
+    number[i] = kept.size();
+    if (used[i]) kept.push_back(std::move(images[i]));
+  }
+  for_each_image_use(json, [&](Json& index) {
+    const auto old = as_integer(index);
+    if (old && *old < number.size()) index = number[*old];
+  });
+  images = std::move(kept);
+  if (images.empty()) json.erase("images");
+}
+
+}  // namespace
+
+Result<ModelTextures> read_gltf_textures(const GltfContents& contents) {
+  return Reader(contents).read();
+}
+
+void replace_gltf_textures(const GltfContents& contents, std::span<const NewTexture> textures,
+                           GltfEdit& edit) {
+  const std::vector<GltfTextureUse> uses = uses_that_follow(contents);
+  std::set<std::uint64_t> replaced;
+  for (const NewTexture& made : textures) {
+    if (made.uses.empty()) continue;
+    const GltfTextureUse& first = uses[made.uses.front()];
+    Json texture = edit.json["textures"][first.texture];  // its sampler, name and extras
+    texture.erase("extensions");
+    texture["source"] = edit.add_image(made.name, made.png, "image/png");
+    const std::size_t number = edit.json["textures"].size();
+    edit.json["textures"].push_back(std::move(texture));
+    for (const std::size_t use : made.uses) {
+      replaced.insert(uses[use].texture);
+      Json& info = edit.json[uses[use].where];
+      info["index"] = number;
+      if (uses[use].transformed) remove_extension(info, kTransform);
+    }
+  }
+  empty_unused_textures(edit.json, replaced, contents);
+  drop_unused_images(edit.json);
+  const bool still = edit.json["materials"].dump().find(kTransform) != std::string::npos;
+  if (!still) unlist_extension(edit.json, kTransform);
+}
+
+}  // namespace wrapatlas

@@ -1,0 +1,48 @@
+// Where the vertices are, and what follows from it for the triangles around each.
+#pragma once
+
+#include <vector>
+
+#include "simplify/collapse_mesh.h"
+#include "simplify/symmetric3.h"
+#include "wrapatlas/geometry.h"
+
+namespace wrapatlas {
+
+/// Sums over the triangles around a vertex, n being (p1 - p0) x (p2 - p0). Seen from the vertex the
+/// determinants of these triangles are 0, so two stars are all that an edge's cost needs.
+struct Star {
+  Symmetric3 squares;  ///< of n nᵀ
+  Vec3 normal;         ///< of n
+};
+
+class PatchGeometry {
+ public:
+  /// The mesh must outlive this. O(n).
+  PatchGeometry(const CollapseMesh& mesh, std::vector<Vec3> positions);
+
+  [[nodiscard]] const Vec3& position(std::uint32_t v) const { return positions_[v]; }
+  [[nodiscard]] const Vec3& normal(std::uint32_t f) const { return normals_[f]; }
+  [[nodiscard]] const Star& star(std::uint32_t v) const { return stars_[v]; }
+
+  /// Also brings up to date what hangs on it, from the triangles that are there now: no sum drifts.
+  void move(std::uint32_t v, const Vec3& point);
+
+  /// Signed, of the faces that are left.
+  [[nodiscard]] double volume() const;
+
+  /// Whether a triangle that stays is turned by more than 84 degrees or made a needle when the ends
+  /// of the edge of c meet in `point`. Needles that there are may stay needles.
+  [[nodiscard]] bool spoils_triangle(std::uint32_t c, const Vec3& point) const;
+
+ private:
+  [[nodiscard]] Vec3 normal_of(std::uint32_t f) const;
+  [[nodiscard]] Star star_of(std::uint32_t v) const;
+
+  const CollapseMesh& mesh_;
+  std::vector<Vec3> positions_;
+  std::vector<Vec3> normals_;
+  std::vector<Star> stars_;
+};
+
+}  // namespace wrapatlas

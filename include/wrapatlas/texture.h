@@ -77,14 +77,14 @@ void srgb_to_linear(Texture& texture);
 void linear_to_srgb(Texture& texture);
 
 /// A PNG or JPEG file's pixels; grey ones have one channel, or two with alpha. 16-bit values keep
-/// their precision. No colour profile is applied. Errors: input (not such a file, cut off,
-/// larger than 65536 a side or 2^30 values); usage (another ending).
+/// their precision. No colour profile is applied. What the file's name ends in does not matter.
+/// Error: input (not such a file, cut off, more than 65536 pixels a side or 2^28 in all).
 Result<Texture> load_texture(const std::filesystem::path& path);
 /// The same of a file's bytes; `name` is for errors.
 Result<Texture> decode_texture(std::string_view bytes, const std::string& name);
 
-/// Values are cut to [0, 1] and rounded. `bits`: 8 or 16. Errors: usage (bits, or an ending other
-/// than .png), output.
+/// Values are cut to [0, 1] and rounded; what is no number is 0. `bits`: 8 or 16. Errors: usage
+/// (bits, or an ending other than .png), output.
 Status save_texture(const std::filesystem::path& path, const Texture& texture, int bits = 8);
 /// The bytes of the PNG file.
 Result<std::string> encode_texture(const Texture& texture, int bits = 8);

@@ -24,12 +24,13 @@ Result<std::string> encode_pixels(const PixelFormat& format, std::span<const std
 Result<Texture> decode_png(std::string_view bytes, const std::string& name);
 Result<Texture> decode_jpeg(std::string_view bytes, const std::string& name);
 
-/// Pictures may have no more than that: 65536 a side and 2^30 values.
+/// Pictures may have no more than that: 65536 pixels a side and 2^28 in all.
 inline constexpr std::uint32_t kMostPixelsAcross = 65536;
-inline constexpr std::uint64_t kMostValues = 1ULL << 30U;
+inline constexpr std::uint64_t kMostPixels = 1ULL << 28U;
 
-inline Error too_large(const std::string& name) {
-  return {ErrorKind::input, name, "the picture is too large", "use one of at most 65536 a side"};
-}
+/// Before memory is asked for: may a file of `bytes` hold a picture of this size, which takes
+/// `least_bytes` however well it is compressed? Error: input.
+Status check_picture_size(const std::string& name, std::uint64_t width, std::uint64_t height,
+                          std::uint64_t least_bytes, std::size_t bytes);
 
 }  // namespace wrapatlas

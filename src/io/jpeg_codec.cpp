@@ -25,12 +25,16 @@ Result<Texture> decode_jpeg(std::string_view bytes, const std::string& name) {
                           &color_space) != 0) {
     return decode_error(name, handle.get());
   }
-  if (std::uint64_t{3} * width * height > kMostValues) return too_large(name);
+  // Each 8 x 8 block has a code of its own, of one bit at least.
+  const auto w = static_cast<std::uint64_t>(width), h = static_cast<std::uint64_t>(height);
+  if (const Status ok = check_picture_size(name, w, h, w * h / 64 / 8, bytes.size()); !ok) {
+    return ok.error();
+  }
   const bool grey = color_space == TJCS_GRAY;
   Texture texture(width, height, grey ? 1 : 3);
   std::vector<unsigned char> pixels(texture.values.size());
   if (tjDecompress2(handle.get(), data, bytes.size(), pixels.data(), width, 0, height,
-                    grey ? TJPF_GRAY : TJPF_RGB, TJFLAG_ACCURATEDCT) != 0) {
+                    grey ? TJPF_GRAY : TJPF_RGB, TJFLAG_ACCURATEDCT | TJFLAG_LIMITSCANS) != 0) {
     return decode_error(name, handle.get());
   }
   for (std::size_t i = 0; i < pixels.size(); ++i) texture.values[i] = float(pixels[i]) / 255.0F;

@@ -41,6 +41,20 @@ int channels_of(const spng_ihdr& header, bool has_transparent) {
   }
 }
 
+/// In the file.
+std::uint64_t bits_per_pixel(const spng_ihdr& header) {
+  switch (header.color_type) {
+    case SPNG_COLOR_TYPE_GRAYSCALE_ALPHA:
+      return 2U * header.bit_depth;
+    case SPNG_COLOR_TYPE_TRUECOLOR:
+      return 3U * header.bit_depth;
+    case SPNG_COLOR_TYPE_TRUECOLOR_ALPHA:
+      return 4U * header.bit_depth;
+    default:
+      return header.bit_depth;
+  }
+}
+
 /// From RGBA of 8 or 16 bits, of which the file may have had fewer channels.
 template <typename T>
 Texture texture_of(const std::vector<std::uint8_t>& rgba, int width, int height, int channels) {
@@ -89,14 +103,20 @@ Result<std::string> encode_pixels(const PixelFormat& format, std::span<const std
 Result<Texture> decode_png(std::string_view bytes, const std::string& name) {
   const Context context(spng_ctx_new(0), &spng_ctx_free);
   if (!context) return Error{ErrorKind::input, name, "out of memory", "use a smaller picture"};
-  spng_set_image_limits(context.get(), kMostPixelsAcross, kMostPixelsAcross);
   constexpr std::size_t kMostChunk = std::size_t{1} << 26U;
   spng_set_chunk_limits(context.get(), kMostChunk, kMostChunk);
   int failure = spng_set_png_buffer(context.get(), bytes.data(), bytes.size());
   spng_ihdr header{};
   if (failure == 0) failure = spng_get_ihdr(context.get(), &header);
   if (failure != 0) return decode_error(name, failure);
-  if (std::uint64_t{4} * header.width * header.height > kMostValues) return too_large(name);
+  // Deflate makes no more than 1032 bytes of one.
+  const std::uint64_t raw =
+      std::uint64_t{1} * header.width * header.height * bits_per_pixel(header) / 8;
+  if (const Status ok =
+          check_picture_size(name, header.width, header.height, raw / 1032, bytes.size());
+      !ok) {
+    return ok.error();
+  }
   spng_trns transparent{};
   const bool has_transparent = spng_get_trns(context.get(), &transparent) == 0;
   const bool wide = header.bit_depth == 16;

@@ -1,4 +1,6 @@
 // Textures in files: PNG in and out, JPEG in.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -8,6 +10,21 @@
 #include "wrapatlas/texture.h"
 
 namespace wrapatlas {
+
+Status check_picture_size(const std::string& name, std::uint64_t width, std::uint64_t height,
+                          std::uint64_t least_bytes, std::size_t bytes) {
+  const std::string size = fmt::format("{} x {} pixels", width, height);
+  if (width > kMostPixelsAcross || height > kMostPixelsAcross || width * height > kMostPixels) {
+    return Error{ErrorKind::input, name, size + " are too many",
+                 "use a picture of at most 65536 a side and 2^28 in all"};
+  }
+  if (least_bytes > bytes) {
+    return Error{ErrorKind::input, name,
+                 fmt::format("cut off: {} do not fit into {} bytes", size, bytes),
+                 "export it again"};
+  }
+  return Done{};
+}
 
 Result<Texture> decode_texture(std::string_view bytes, const std::string& name) {
   constexpr std::string_view kPng("\x89PNG\r\n\x1a\n", 8), kJpeg("\xff\xd8\xff", 3);
@@ -30,8 +47,9 @@ Result<std::string> encode_texture(const Texture& texture, int bits) {
   const double most = bits == 8 ? 255 : 65535;
   std::vector<std::uint8_t> pixels(texture.values.size() * static_cast<std::size_t>(bits) / 8);
   for (std::size_t i = 0; i < texture.values.size(); ++i) {
-    const double value = std::clamp(double(texture.values[i]), 0.0, 1.0);
-    const auto whole = static_cast<std::uint16_t>(std::lround(most * value));
+    const auto value = double(texture.values[i]);
+    const double within = value > 0 ? std::min(value, 1.0) : 0;  // what is no number is 0
+    const auto whole = static_cast<std::uint16_t>(std::lround(most * within));
     if (bits == 8) {
       pixels[i] = static_cast<std::uint8_t>(whole);
     } else {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "threads/parallel.h"
 #include "wrapatlas/texture.h"
 
 namespace wrapatlas {
@@ -18,45 +19,66 @@ double luma(const float* value, int channels) {
   return 0.2126 * double(value[0]) + 0.7152 * double(value[1]) + 0.0722 * double(value[2]);
 }
 
-std::array<double, 2 * kReach + 1> window() {
-  std::array<double, 2 * kReach + 1> weights{};
-  for (int i = -kReach; i <= kReach; ++i) {
-    weights[static_cast<std::size_t>(i + kReach)] = std::exp(-i * i / (2 * kSigma * kSigma));
-  }
-  return weights;
-}
+using Values = std::vector<double>;
 
-/// Blurs rows and then columns.
-std::vector<double> blurred(const std::vector<double>& values, int width, int height) {
-  const auto weights = window();
-  std::vector<double> across(values.size()), result(values.size());
-  const auto blur = [&](const std::vector<double>& from, std::vector<double>& to, int count,
-                        std::size_t step, int lines, std::size_t line_step) {
-    for (int line = 0; line < lines; ++line) {
-      for (int i = 0; i < count; ++i) {
-        double sum = 0, weight = 0;
-        for (int k = std::max(0, i - kReach); k <= std::min(count - 1, i + kReach); ++k) {
-          const double w = weights[static_cast<std::size_t>(k - i + kReach)];
-          const std::size_t at =
-              static_cast<std::size_t>(line) * line_step + static_cast<std::size_t>(k) * step;
-          sum += w * from[at];
-          weight += w;
-        }
-        to[static_cast<std::size_t>(line) * line_step + static_cast<std::size_t>(i) * step] =
-            sum / weight;
-      }
+/// The window's weights along one axis, around each of `count` places: those that are within.
+class Window {
+ public:
+  explicit Window(int count) : count_(count), share_(static_cast<std::size_t>(count), 0.0) {
+    for (int step = -kReach; step <= kReach; ++step) {
+      for (int i = begin(step); i < end(step); ++i) at(i) += weight(step);
     }
+    for (double& share : share_) share = 1 / share;
+  }
+
+  static double weight(int step) { return std::exp(-step * step / (2 * kSigma * kSigma)); }
+  /// From where to where `step` places further on there still is one.
+  [[nodiscard]] int begin(int step) const { return std::max(0, -step); }
+  [[nodiscard]] int end(int step) const { return std::min(count_, count_ - step); }
+  /// What sums of weighted values are to be multiplied with.
+  [[nodiscard]] double share(int i) const { return share_[static_cast<std::size_t>(i)]; }
+
+ private:
+  double& at(int i) { return share_[static_cast<std::size_t>(i)]; }
+
+  int count_;
+  Values share_;
+};
+
+/// Along rows and then down columns; both row by row, as they lie in memory.
+Values blurred(const Values& values, int width, int height) {
+  const Window across(width), down(height);
+  const auto row = [width](auto& of, int y) { return of.data() + std::size_t{1} * y * width; };
+  Values rows(values.size(), 0.0), result(values.size(), 0.0);
+  const auto each_row = [&](auto&& job) {
+    parallel_for(static_cast<std::size_t>(height), thread_count(0),
+                 [&](std::size_t y) { job(static_cast<int>(y)); });
   };
-  const auto row = static_cast<std::size_t>(width);
-  blur(values, across, width, 1, height, row);
-  blur(across, result, height, row, width, 1);
+  each_row([&](int y) {
+    const double* from = row(values, y);
+    double* to = row(rows, y);
+    for (int step = -kReach; step <= kReach; ++step) {
+      const double weight = Window::weight(step);
+      for (int x = across.begin(step); x < across.end(step); ++x) to[x] += weight * from[x + step];
+    }
+    for (int x = 0; x < width; ++x) to[x] *= across.share(x);
+  });
+  each_row([&](int y) {
+    double* to = row(result, y);
+    for (int step = -kReach; step <= kReach; ++step) {
+      if (y < down.begin(step) || y >= down.end(step)) continue;
+      const double weight = Window::weight(step) * down.share(y);
+      const double* from = row(rows, y + step);
+      for (int x = 0; x < width; ++x) to[x] += weight * from[x];
+    }
+  });
   return result;
 }
 
 double mean_ssim(const Texture& a, const Texture& b, std::span<const std::uint8_t> mask) {
   constexpr double kC1 = 0.01 * 0.01, kC2 = 0.03 * 0.03;
   const std::size_t count = a.texel_count();
-  std::vector<double> x(count), y(count), xx(count), yy(count), xy(count);
+  Values x(count), y(count), xx(count), yy(count), xy(count);
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t at = i * static_cast<std::size_t>(a.channels);
     x[i] = luma(a.values.data() + at, a.channels);
@@ -65,7 +87,7 @@ double mean_ssim(const Texture& a, const Texture& b, std::span<const std::uint8_
     yy[i] = y[i] * y[i];
     xy[i] = x[i] * y[i];
   }
-  for (std::vector<double>* values : {&x, &y, &xx, &yy, &xy}) {
+  for (Values* values : {&x, &y, &xx, &yy, &xy}) {
     *values = blurred(*values, a.width, a.height);
   }
   double sum = 0;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "threads/parallel.h"
 #include "wrapatlas/texture.h"
 
 namespace wrapatlas {
@@ -49,24 +50,22 @@ class Envelope {
  public:
   Envelope(int width, bool wraps) : width_(width), wraps_(wraps) {}
 
-  /// column[x]: the nearest column by the squares of distances; unwrapped, so it may lie outside
-  /// the row. false: there is none.
-  bool find(const int* offset, std::vector<int>& column) {
+  /// Calls visit(x, column) for all x of a row: the nearest column by the squares of distances. Not
+  /// if there is none.
+  template <typename Visit>
+  void find(const int* offset, Visit&& visit) {
     sites_.clear();
     for (int x = wraps_ ? -width_ : 0; x < (wraps_ ? 2 * width_ : width_); ++x) {
       const int rows = offset[wrapped(x)];
       if (rows != kNowhere) add(x, double(rows) * rows);
     }
-    if (sites_.empty()) return false;
+    if (sites_.empty()) return;
     std::size_t site = 0;
     for (int x = 0; x < width_; ++x) {
       while (site + 1 < sites_.size() && sites_[site + 1].from <= x) ++site;
-      column[static_cast<std::size_t>(x)] = sites_[site].x;
+      visit(x, wrapped(sites_[site].x));
     }
-    return true;
   }
-
-  [[nodiscard]] int wrapped(int x) const { return x < 0 ? x + width_ : x % width_; }
 
  private:
   struct Site {
@@ -74,6 +73,8 @@ class Envelope {
     double height;  ///< of the parabola at x
     double from;    ///< where it begins to be the lowest
   };
+
+  [[nodiscard]] int wrapped(int x) const { return x < 0 ? x + width_ : x % width_; }
 
   void add(int x, double height) {
     double from = -std::numeric_limits<double>::infinity();
@@ -92,23 +93,31 @@ class Envelope {
   std::vector<Site> sites_;
 };
 
+void fill_row(Texture& texture, const TexelMask& inside, const std::vector<int>& offset,
+              Envelope& envelope, int y) {
+  const std::size_t row = std::size_t{1} * y * texture.width;
+  envelope.find(offset.data() + row, [&](int x, int from_x) {
+    if (inside[row + static_cast<std::size_t>(x)] != 0) return;
+    const int rows = offset[row + static_cast<std::size_t>(from_x)];
+    const int from_y = (y + rows + texture.height) % texture.height;
+    std::copy_n(texture.at(from_x, from_y), texture.channels, texture.at(x, y));
+  });
+}
+
 }  // namespace
 
 void dilate(Texture& texture, const TexelMask& inside, Wrap wrap) {
   const int width = texture.width, height = texture.height;
   const std::vector<int> offset = nearest_rows(width, height, inside, wraps_v(wrap));
-  Envelope envelope(width, wraps_u(wrap));
-  std::vector<int> column(static_cast<std::size_t>(width));
-  for (int y = 0; y < height; ++y) {
-    const int* row = offset.data() + std::size_t{1} * y * width;
-    if (!envelope.find(row, column)) continue;
-    for (int x = 0; x < width; ++x) {
-      if (inside[std::size_t{1} * y * width + static_cast<std::size_t>(x)] != 0) continue;
-      const int from_x = envelope.wrapped(column[static_cast<std::size_t>(x)]);
-      const int from_y = (y + row[from_x] + height) % height;
-      std::copy_n(texture.at(from_x, from_y), texture.channels, texture.at(x, y));
-    }
-  }
+  constexpr int kBand = 64;  // rows that share an envelope's memory
+  parallel_for(static_cast<std::size_t>((height + kBand - 1) / kBand), thread_count(0),
+               [&](std::size_t band) {
+                 Envelope envelope(width, wraps_u(wrap));
+                 const int begin = static_cast<int>(band) * kBand;
+                 for (int y = begin; y < std::min(height, begin + kBand); ++y) {
+                   fill_row(texture, inside, offset, envelope, y);
+                 }
+               });
 }
 
 }  // namespace wrapatlas

@@ -1,6 +1,7 @@
 // IEC 61966-2-1.
 #include <cmath>
 
+#include "threads/parallel.h"
 #include "wrapatlas/texture.h"
 
 namespace wrapatlas {
@@ -9,10 +10,12 @@ namespace {
 template <typename Change>
 void change_colors(Texture& texture, Change&& change) {
   const int colors = texture.channels < 3 ? 1 : 3;
-  for (std::size_t t = 0; t < texture.texel_count(); ++t) {
-    float* value = texture.values.data() + t * static_cast<std::size_t>(texture.channels);
-    for (int i = 0; i < colors; ++i) value[i] = change(value[i]);
-  }
+  parallel_for(static_cast<std::size_t>(texture.height), thread_count(0), [&](std::size_t y) {
+    for (int x = 0; x < texture.width; ++x) {
+      float* value = texture.at(x, static_cast<int>(y));
+      for (int i = 0; i < colors; ++i) value[i] = change(value[i]);
+    }
+  });
 }
 
 }  // namespace

@@ -185,6 +185,67 @@ TEST(Srgb, ThereAndBack) {
   EXPECT_EQ(colors.values[2], srgb_to_linear(before.values[2]));
 }
 
+TEST(TexturesParallel, RowsDoNotMixUp) {
+  Texture texture = noise(40, 300, 3, 12);
+  const Texture before = texture;
+  srgb_to_linear(texture);
+  for (std::size_t i = 0; i < texture.values.size(); ++i) {
+    ASSERT_EQ(texture.values[i], srgb_to_linear(before.values[i]));
+  }
+  TexelMask column(texture.texel_count(), 0);
+  for (int y = 0; y < 300; ++y) column[std::size_t(y) * 40 + 7] = 1;
+  dilate(texture, column, Wrap::uv);
+  for (int y = 0; y < 300; ++y) {
+    for (int x = 0; x < 40; ++x) ASSERT_EQ(texture.at(x, y)[1], texture.at(7, y)[1]);
+  }
+}
+
+/// A window at a time.
+double slow_ssim(const Texture& a, const Texture& b, const TexelMask& mask) {
+  double sum = 0;
+  std::size_t seen = 0;
+  for (int y = 0; y < a.height; ++y) {
+    for (int x = 0; x < a.width; ++x) {
+      if (mask[std::size_t(y) * std::size_t(a.width) + std::size_t(x)] == 0) continue;
+      double weights = 0, ma = 0, mb = 0, aa = 0, bb = 0, ab = 0;
+      for (int j = std::max(0, y - 5); j <= std::min(a.height - 1, y + 5); ++j) {
+        for (int i = std::max(0, x - 5); i <= std::min(a.width - 1, x + 5); ++i) {
+          const double weight =
+              std::exp(-((i - x) * (i - x) + (j - y) * (j - y)) / (2 * 1.5 * 1.5));
+          const auto va = double(*a.at(i, j)), vb = double(*b.at(i, j));
+          weights += weight;
+          ma += weight * va;
+          mb += weight * vb;
+          aa += weight * va * va;
+          bb += weight * vb * vb;
+          ab += weight * va * vb;
+        }
+      }
+      ma /= weights;
+      mb /= weights;
+      const double va = aa / weights - ma * ma, vb = bb / weights - mb * mb;
+      const double both = ab / weights - ma * mb;
+      sum += (2 * ma * mb + 1e-4) * (2 * both + 9e-4) /
+             ((ma * ma + mb * mb + 1e-4) * (va + vb + 9e-4));
+      ++seen;
+    }
+  }
+  return sum / double(seen);
+}
+
+TEST(Compare, SsimIsTheMeanOverWindows) {
+  std::mt19937 random(3);
+  for (const auto& [w, h] : {std::pair{30, 20}, {3, 40}, {12, 1}}) {
+    const Texture a = noise(w, h, 1, 1), other = noise(w, h, 1, 2);
+    Texture b = a;
+    for (std::size_t i = 0; i < b.values.size(); ++i) b.values[i] += 0.3F * other.values[i];
+    TexelMask mask(a.texel_count(), 1);
+    EXPECT_NEAR(compare(a, b).ssim, slow_ssim(a, b, mask), 1e-9);
+    for (std::size_t i = 1; i < mask.size(); ++i) mask[i] = random() % 2;
+    EXPECT_NEAR(compare(a, b, mask).ssim, slow_ssim(a, b, mask), 1e-9);
+  }
+}
+
 TEST(Compare, KnownValues) {
   Texture a = noise(40, 30, 3, 8), b = a;
   EXPECT_TRUE(std::isinf(compare(a, b).psnr));
@@ -224,6 +285,10 @@ TEST(TextureFiles, PngThereAndBack) {
       }
     }
   }
+  Texture odd(3, 1, 1);
+  odd.values = {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(),
+                -std::numeric_limits<float>::infinity()};
+  EXPECT_EQ(decode_texture(*encode_texture(odd), "x.png")->values, (std::vector<float>{0, 1, 0}));
   EXPECT_FALSE(encode_texture(noise(2, 2, 3, 1), 12));
   EXPECT_FALSE(encode_texture(Texture()));
 }
@@ -263,11 +328,86 @@ TEST(TextureFiles, BadPngs) {
     const auto texture = decode_texture(broken, "x.png");
     EXPECT_TRUE(!texture || texture->values.size() == 1200U);
   }
-  std::string huge = *whole;
-  huge[16] = 0x7f;  // its width
-  EXPECT_FALSE(decode_texture(huge, "x.png"));
   EXPECT_FALSE(decode_texture("no picture at all", "x.png"));
   EXPECT_FALSE(load_texture("/nowhere/x.png"));
+}
+
+TEST(TextureFiles, KindsOfPng) {
+  const auto load = [](const char* name) {
+    const auto texture =
+        load_texture(std::filesystem::path(WRAPATLAS_SOURCE_DIR) / "fuzz/corpus/texture" / name);
+    EXPECT_TRUE(texture) << texture.error().message();
+    return texture ? *texture : Texture();
+  };
+  const Texture bits = load("grey1.png");
+  ASSERT_EQ(bits.values.size(), 9U * 2U);
+  for (std::size_t i = 0; i < bits.values.size(); ++i)
+    EXPECT_EQ(bits.values[i], i % 2 == 0 ? 1 : 0);
+  const Texture palette = load("palette.png");  // two colours are transparent in part
+  ASSERT_EQ(palette.channels, 4);
+  ASSERT_EQ(palette.values.size(), 4U * 4U);
+  for (int x = 0; x < 4; ++x) {
+    for (int c = 0; c < 3; ++c) EXPECT_EQ(palette.at(x, 0)[c], float(3 * x + c) / 255);
+    EXPECT_EQ(palette.at(x, 0)[3], x == 0 ? 128.0F / 255 : 1);
+  }
+  const Texture wide = load("rgba16.png");  // bytes 0 1 2 3 ..., the higher first
+  ASSERT_EQ(wide.values.size(), 2U * 2U * 4U);
+  EXPECT_EQ(wide.values[0], 1.0F / 65535);
+  EXPECT_EQ(wide.values[3], float(256 * 6 + 7) / 65535);
+  const Texture grey = load("grey-alpha8.png");
+  ASSERT_EQ(grey.channels, 2);
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(grey.values[i], float(i + 1) / 255);
+  EXPECT_EQ(load("interlaced.png").values, std::vector<float>{64.0F / 255});
+}
+
+void set_crc(std::string& png) {  // of the first chunk, the header
+  std::uint32_t crc = 0xffffffffU;
+  for (std::size_t i = 12; i < 29; ++i) {
+    crc ^= static_cast<std::uint8_t>(png[i]);
+    for (int bit = 0; bit < 8; ++bit) crc = (crc >> 1U) ^ ((crc & 1U) != 0 ? 0xedb88320U : 0U);
+  }
+  for (std::size_t i = 0; i < 4; ++i) png[29 + i] = char((~crc >> (24U - 8U * i)) & 0xffU);
+}
+
+void expect_refused(const std::string& bytes, const std::string& word) {
+  const auto texture = decode_texture(bytes, "x");
+  ASSERT_FALSE(texture);
+  EXPECT_EQ(texture.error().kind, ErrorKind::input);
+  EXPECT_NE(texture.error().what.find(word), std::string::npos) << texture.error().message();
+}
+
+TEST(TextureFiles, AFewBytesAreNoLargePicture) {
+  // Before any memory is asked for: the first two take a gigabyte and more.
+  const auto png = encode_texture(noise(20, 20, 3, 1));
+  ASSERT_TRUE(png);
+  const auto sized = [&](int width_byte, int height_byte) {
+    std::string bytes = *png;  // sides are four bytes each, the highest first
+    bytes[18] = char(width_byte);
+    bytes[22] = char(height_byte);
+    set_crc(bytes);
+    return bytes;
+  };
+  ASSERT_TRUE(decode_texture(sized(0, 0), "x"));
+  expect_refused(sized(0x3f, 0x3f), "16148 x 16148 pixels do not fit into");
+  std::string jpeg(reinterpret_cast<const char*>(test::kJpegBytes), sizeof(test::kJpegBytes));
+  const std::size_t frame = jpeg.find("\xff\xc0");
+  ASSERT_NE(frame, std::string::npos);
+  jpeg[frame + 5] = jpeg[frame + 7] = 0x3f;
+  expect_refused(jpeg, "16144 x 16136 pixels do not fit into");
+  expect_refused(sized(0x4f, 0x4f), "too many");
+  std::string wide = sized(0, 0);
+  wide[17] = 1;
+  set_crc(wide);
+  expect_refused(wide, "65556 x 20 pixels are too many");
+}
+
+TEST(TextureFiles, WellPackedPicturesAreNotTakenForCutOnes) {
+  for (const int channels : {1, 3, 4}) {
+    const Texture plain(900, 700, channels);
+    const auto bytes = encode_texture(plain);
+    ASSERT_TRUE(bytes);
+    EXPECT_EQ(decode_texture(*bytes, "x")->values, plain.values);
+  }
 }
 
 }  // namespace

@@ -26,13 +26,16 @@ enum class Filter { trilinear, bilinear };
 constexpr Named<Filter> kFilters[] = {{"trilinear", Filter::trilinear},
                                       {"bilinear", Filter::bilinear}};
 
+constexpr double kDegree = std::numbers::pi / 180;
+
 struct RenderArguments {
   std::string input, output, texture, normal_map, framed, other, json;
   Space space = Space::tangent;
   Light shade = Light::smooth;
   Filter filter = Filter::trilinear;
   Wrap wrap = Wrap::uv;
-  std::optional<double> level, hard_edges;
+  std::optional<double> level, hard_edges;   ///< degrees
+  std::optional<double> azimuth, elevation;  ///< degrees
   int texcoord = 0;
   bool quiet = false;
   RenderOptions options;
@@ -49,6 +52,8 @@ Status resolve(const CLI::App& app, RenderArguments& a) {
       {"--level", bare, no_texture, add},
       {"--level", a.filter == Filter::bilinear, "bilinear filtering stays on level 0",
        "leave one out"},
+      {"--views", a.azimuth || a.elevation, "--azimuth and --elevation are of a single view",
+       "leave one out"},
       {"--hard-edges", !a.normal_map.empty() && a.space == Space::object,
        "object space needs no other normals", "leave it out"},
       {"--hard-edges", a.normal_map.empty() && a.shade != Light::smooth, "nothing is smooth",
@@ -59,6 +64,15 @@ Status resolve(const CLI::App& app, RenderArguments& a) {
     return usage(a.output, "this picture is of pixels", "write .png");
   }
   RenderOptions& options = a.options;
+  if (a.azimuth || a.elevation) {
+    options.from = {a.azimuth.value_or(0) * kDegree, a.elevation.value_or(0) * kDegree};
+    options.views = 1;
+  }
+  if (options.size * options.views > kMostTexels) {
+    return usage(fmt::format("--views {} --size {}", options.views, options.size),
+                 fmt::format("a picture has at most {} pixels a side", kMostTexels),
+                 "give less of one of them");
+  }
   options.shading = a.shade == Light::none   ? Shading::none
                     : a.shade == Light::flat ? Shading::flat
                                              : Shading::smooth;
@@ -68,17 +82,21 @@ Status resolve(const CLI::App& app, RenderArguments& a) {
   options.wrap = a.wrap;
   options.trilinear = a.filter == Filter::trilinear;
   options.level = a.level.value_or(-1);
-  if (a.hard_edges) options.hard_angle = *a.hard_edges * std::numbers::pi / 180;
+  if (a.hard_edges) options.hard_angle = *a.hard_edges * kDegree;
+  options.threads = threads_for(options.threads);
   return check_texcoord(a.texcoord, std::span(&a.input, 1));
 }
 
-Status check_files(const RenderArguments& a, const Model& model) {
+Status check_files(const RenderArguments& a, const Model& model, const Model* framed) {
   const OutputPath outputs[] = {{"-o", a.output}, {"--json", a.json}};
   if (const Status ok = refuse_equal_outputs(outputs); !ok) return ok;
   if (const Status ok = refuse_overwriting(a.input, model, outputs); !ok) return ok;
+  if (framed != nullptr) {
+    if (const Status ok = refuse_overwriting(a.framed, *framed, outputs); !ok) return ok;
+  }
   for (const OutputPath& output : outputs) {
     if (output.path.empty() || output.path == "-") continue;
-    for (const std::string& read : {a.texture, a.normal_map, a.framed, a.other}) {
+    for (const std::string& read : {a.texture, a.normal_map, a.other}) {
       if (!read.empty() && same_file(output.path, read)) {
         return usage(fmt::format("{} {}", output.option, output.path),
                      "it would overwrite what is read", "give another name");
@@ -89,14 +107,16 @@ Status check_files(const RenderArguments& a, const Model& model) {
   return Done{};
 }
 
-Status read_maps(const std::string& path, MipFilter filter, bool directions, MipMaps& maps) {
+/// Normals if they are `directions`, else colours.
+Status read_maps(const std::string& path, bool directions, MipMaps& maps) {
   if (path.empty()) return Done{};
   auto texture = load_texture(path);
   if (!texture) return texture.error();
+  if (!directions) srgb_to_linear(*texture);
   if (directions && texture->channels < 3) {
     return Error{ErrorKind::input, path, "a grey picture is no normal map", "give one in colour"};
   }
-  maps = make_mip_maps(std::move(*texture), filter);
+  maps = make_mip_maps(std::move(*texture), directions ? MipFilter::normals : MipFilter::mean);
   return Done{};
 }
 
@@ -104,7 +124,12 @@ Status read_maps(const std::string& path, MipFilter filter, bool directions, Mip
 Result<Likeness> likeness_to(const std::string& path, const Rendering& rendering) {
   const auto other = load_texture(path);
   if (!other) return other.error();
-  const Texture& image = rendering.image;
+  // As it is in the file, or a picture would not be equal to itself.
+  const auto bytes = encode_texture(rendering.image);
+  if (!bytes) return bytes.error();
+  const auto written = decode_texture(*bytes, path);
+  if (!written) return written.error();
+  const Texture& image = *written;
   if (other->width != image.width || other->height != image.height || other->channels != 3) {
     return Error{ErrorKind::input, path,
                  fmt::format("{} x {} pixels and {} channels, not {} x {} and 3", other->width,
@@ -127,6 +152,7 @@ Json report_of(const RenderArguments& a, const Rendering& rendering,
                  {"width", rendering.image.width},
                  {"height", rendering.image.height},
                  {"views", a.options.views},
+                 {"threads", a.options.threads},
                  {"covered", covered}};
   if (likeness) {
     report["other"] = a.other;
@@ -146,24 +172,26 @@ int run(const CLI::App& app, RenderArguments& a) {
   load_options.texcoord_set = a.texcoord;
   const auto model = load_model(a.input, load_options);
   if (!model) return report_error(model.error());
-  if (const Status ok = check_files(a, *model); !ok) return report_error(ok.error());
+  std::optional<Model> framed;
+  if (!a.framed.empty()) {
+    auto other = load_model(a.framed);
+    if (!other) return report_error(other.error());
+    framed = std::move(*other);
+    a.options.framed = &framed->mesh;
+  }
+  if (const Status ok = check_files(a, *model, framed ? &*framed : nullptr); !ok) {
+    return report_error(ok.error());
+  }
   const bool textured = !a.texture.empty() || !a.normal_map.empty();
   if (textured && model->mesh.texcoords.empty()) {
     return report_error({ErrorKind::input, a.input, "it has no UVs for a texture",
                          "unwrap it first, or give the model that the texture was made for"});
   }
-  Mesh framed;
-  if (!a.framed.empty()) {
-    auto other = load_model(a.framed);
-    if (!other) return report_error(other.error());
-    framed = std::move(other->mesh);
-    a.options.framed = &framed;
-  }
   MipMaps color, normals;
-  if (const Status ok = read_maps(a.texture, MipFilter::srgb, false, color); !ok) {
+  if (const Status ok = read_maps(a.texture, false, color); !ok) {
     return report_error(ok.error());
   }
-  if (const Status ok = read_maps(a.normal_map, MipFilter::normals, true, normals); !ok) {
+  if (const Status ok = read_maps(a.normal_map, true, normals); !ok) {
     return report_error(ok.error());
   }
   if (!color.levels.empty()) a.options.color = &color;
@@ -222,6 +250,11 @@ Command make_render_command(CLI::App& parser) {
   add_number(app, "--size", a.options.size, {16, 4096, "pixels"}, "Of each view, square");
   add_number(app, "--views", a.options.views, {1, 64, "views"},
              "Side by side: around the model, every second from below");
+  add_number(
+      app, "--azimuth", a.azimuth, {-360, 360, "degrees"},
+      "One view, from there: around y, from z towards x. Default: 0, if --elevation is given");
+  add_number(app, "--elevation", a.elevation, {-90, 90, "degrees"},
+             "One view, from so far above the horizon. Default: 0, if --azimuth is given");
   app.add_option("--framed-as", a.framed,
                  "A model that the cameras are set up for instead, so that pictures of both lie "
                  "over each other")
@@ -231,6 +264,7 @@ Command make_render_command(CLI::App& parser) {
                  "model in full")
       ->type_name("FILE");
   add_texcoord(app, a.texcoord);
+  add_threads(app, a.options.threads);
   add_json(app, a.json);
   app.add_flag("--quiet", a.quiet, "No summary");
   app.footer(

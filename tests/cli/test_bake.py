@@ -1,11 +1,10 @@
 """wrapatlas bake: maps of a detailed model on the atlas of a simpler one."""
 
-import pathlib
 import struct
 import unittest
-import zlib
 
 import support
+from png_files import read_png
 
 SQUARE = """v 0 0 0
 v 1 0 0
@@ -19,36 +18,6 @@ f 1/1 2/2 3/3 4/4
 """
 # Above it, and tilted: its normal is (-0.6, 0, 0.8).
 TILTED = "v -1 -1 -0.7\nv 2 -1 1.55\nv 2 2 1.55\nv -1 2 -0.7\nf 1 2 3 4\n"
-
-
-def read_png(path):
-    """(width, height, bits, channels, rows of bytes) of a PNG without interlacing."""
-    data = pathlib.Path(path).read_bytes()
-    assert data[:8] == b"\x89PNG\r\n\x1a\n"
-    at, packed = 8, b""
-    while at < len(data):
-        size, kind = struct.unpack(">I4s", data[at:at + 8])
-        body = data[at + 8:at + 8 + size]
-        if kind == b"IHDR":
-            width, height, bits, colour = struct.unpack(">IIBB", body[:10])
-        if kind == b"IDAT":
-            packed += body
-        at += 12 + size
-    channels = {0: 1, 2: 3, 4: 2, 6: 4}[colour]
-    step, raw, rows, last = channels * bits // 8, zlib.decompress(packed), [], None
-    for y in range(height):
-        begin = y * (width * step + 1)
-        kind, row = raw[begin], bytearray(raw[begin + 1:begin + 1 + width * step])
-        last = last or bytes(width * step)
-        for i in range(len(row)):
-            left = row[i - step] if i >= step else 0
-            corner = last[i - step] if i >= step else 0
-            guess = left + last[i] - corner
-            paeth = min((left, last[i], corner), key=lambda value: abs(guess - value))
-            row[i] = (row[i] + (0, left, last[i], (left + last[i]) // 2, paeth)[kind]) % 256
-        rows.append(bytes(row))
-        last = rows[-1]
-    return width, height, bits, channels, rows
 
 
 class Bake(support.CommandTest):

@@ -1,0 +1,44 @@
+// What a place on a textured model looks like.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "render/camera.h"
+#include "wrapatlas/render.h"
+#include "wrapatlas/tangents.h"
+
+namespace wrapatlas {
+
+/// Shares of a triangle's corners; they add up to 1.
+using Shares = std::array<double, 3>;
+
+class Shader {
+ public:
+  /// `triangles` has triangles alone; both outlive the shader.
+  Shader(const Mesh& triangles, const RenderOptions& options);
+
+  /// Linear light. `spread`: how far the triangle reaches in UV for each pixel on the picture, as a
+  /// power of two. Thread safe.
+  [[nodiscard]] std::array<float, 3> color(std::uint32_t triangle, const Shares& shares,
+                                           double spread, const Camera& camera) const;
+
+  /// As in the mesh; (0, 0) without UVs.
+  [[nodiscard]] Vec2 uv(std::uint32_t triangle, const Shares& shares) const;
+
+ private:
+  [[nodiscard]] TextureValue sampled(const MipMaps& maps, Vec2 uv, double spread) const;
+  [[nodiscard]] Vec3 face_normal(std::uint32_t triangle) const;
+  [[nodiscard]] Vec3 interpolated(const CornerVectors& vectors, std::uint32_t triangle,
+                                  const Shares& shares) const;
+  [[nodiscard]] Vec3 normal_at(std::uint32_t triangle, const Shares& shares, Vec2 uv,
+                               double spread) const;
+  [[nodiscard]] double light_on(const Vec3& normal, std::uint32_t triangle,
+                                const Camera& camera) const;
+
+  const Mesh& mesh_;
+  const RenderOptions& options_;
+  TangentFrames frames_;
+};
+
+}  // namespace wrapatlas

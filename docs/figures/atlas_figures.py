@@ -1,4 +1,5 @@
 """Atlases packed by the command, composed with captions."""
+import base64
 import json
 import re
 import subprocess
@@ -114,7 +115,39 @@ def jigsaws(command, root):
     return sheet(1600, 584, parts)
 
 
+def rendering(command, root):
+    """A model that is baked onto itself, with the map that repeats and with the same one clamped."""
+    def png(name):
+        with open(name, "rb") as file:
+            return "data:image/png;base64," + base64.b64encode(file.read()).decode()
+
+    parts = []
+    with tempfile.TemporaryDirectory() as folder:
+        model, size = f"{folder}/coral.glb", ("--resolution", "512")
+
+        def run(name, *arguments):
+            subprocess.run([str(command), name, *arguments, "--quiet"], check=True)
+        run("pack", str(root / "samples/coral.glb"), "-o", model, "--time", "0", *size)
+        run("bake", model, model, "-o", f"{folder}/map.png", "--map", "object", *size)
+        baked = ("--normal-map", f"{folder}/map.png", "--space", "object")
+        pictures = (("Its own normals", ()), ("A baked map, repeating", baked),
+                    ("The same map, clamped", (*baked, "--wrap", "none")))
+        for i, (title, options) in enumerate(pictures):
+            view = f"{folder}/{i}.png"
+            compare = ("--compare", f"{folder}/0.png", "--json", f"{folder}/{i}.json") if i else ()
+            run("render", model, "-o", view, "--azimuth", "0", "--elevation", "60",
+                "--size", "504", *options, *compare)
+            if compare:
+                with open(f"{folder}/{i}.json", encoding="utf-8") as report:
+                    title += f": {json.load(report)['psnr']:.1f} dB"
+            x = 20 + 528 * i
+            parts += [words(x, 40, title, 26, weight="bold"),
+                      f'<image x="{x}" y="60" width="504" height="504" href="{png(view)}"/>']
+    return sheet(1600, 584, parts)
+
+
 PICTURES = {
+    "rendering": (rendering, 1200),
     "demo": (demo, 1500),
     "four-methods": (four_methods, 1600),
     "pages": (pages, 1200),

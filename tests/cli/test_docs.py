@@ -72,10 +72,15 @@ class Docs(unittest.TestCase):
             packed = pathlib.Path(folder) / "packed.glb"
             sample = ROOT / "samples/coral.glb"
             unwrapped = pathlib.Path(folder) / "unwrapped.glb"
+            picture = pathlib.Path(folder) / "one.png"
+            render = ("render", sample, "--size", "32", "-o")
+            subprocess.run([COMMAND, *render, picture], check=True, capture_output=True)
             for command, arguments in (("pack", (sample, "-o", packed, "--grid", "64")),
                                        ("unwrap", (sample, "-o", unwrapped, "--time", "0")),
                                        ("simplify", (sample, "-o", unwrapped, "--faces", "9%")),
-                                       ("check", (packed, "--padding", "9")), ("info", (sample,))):
+                                       ("check", (packed, "--padding", "9")), ("info", (sample,)),
+                                       (render[0], (*render[1:], packed.with_suffix(".png"),
+                                                    "--compare", picture))):
                 run = subprocess.run([COMMAND, command, *arguments, "--json", "-"],
                                      capture_output=True, text=True)
                 report = json.loads(run.stdout)

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Simplifies meshes (OBJ, OFF) and measures what comes out without the program's help: triangles,
-seconds, change of volume, distance to the mesh given; as a Markdown table. With --meshoptimizer
-beside that simplifier, at the number of triangles that wrapatlas came to.
+seconds, change of volume, distance to the mesh given; as a Markdown table. With --others beside
+meshoptimizer and fast-simplification, at the number of triangles that wrapatlas came to.
 
 Distances are of random points, spread evenly over one surface, to the other, and the other way
 round: for each point the exact distance to the triangles on which the 12 nearest of many points
@@ -53,7 +53,7 @@ def arguments():
     parser.add_argument("--samples", type=int, default=100000,
                         help="points to measure from, on either surface; default 100000")
     parser.add_argument("--runs", type=int, default=3, help="the fastest counts; default 3")
-    parser.add_argument("--meshoptimizer", action="store_true", help="measure it too")
+    parser.add_argument("--others", action="store_true", help="measure them too")
     parser.add_argument("--csv", type=pathlib.Path, help="also write every number to this file")
     parser.add_argument("--wrapatlas", default=measure.default_command(),
                         help="the command to run; default: $WRAPATLAS, else the release build")
@@ -61,8 +61,8 @@ def arguments():
     missing = [str(path) for path in options.files if not path.exists()]
     if missing:
         parser.error(f"no such file: {missing[0]}")
-    if options.meshoptimizer and not simplify_others.has_meshoptimizer():
-        parser.error("there is no meshoptimizer in this Python; see README.md")
+    if options.others and not simplify_others.are_there():
+        parser.error("meshoptimizer or fast-simplification is not in this Python; see README.md")
     return options
 
 
@@ -112,9 +112,9 @@ def to_triangle(p, a, b, c):
     """Distances of points to triangles, row by row."""
     normal = numpy.cross(b - a, c - a)
     square = numpy.maximum((normal * normal).sum(-1), 1e-300)
-    inside = numpy.ones(p.shape[:-1], dtype=bool)
+    inside = True
     for start, end in ((a, b), (b, c), (c, a)):
-        inside &= (numpy.cross(end - start, p - start) * normal).sum(-1) >= 0
+        inside = inside & ((numpy.cross(end - start, p - start) * normal).sum(-1) >= 0)
     height = ((p - a) * normal).sum(-1) ** 2 / square
     sides = numpy.minimum(numpy.minimum(to_segment(p, a, b), to_segment(p, b, c)),
                           to_segment(p, c, a))
@@ -161,13 +161,13 @@ def measure_all(options):
             given = triangles(mesh_files.read(path))
             made, seconds = by_wrapatlas(options, path, folder)
             rows.append(measured(options, path, "wrapatlas", given, made, seconds))
-            if options.meshoptimizer:
+            for name, simplifier in simplify_others.ALL.items() if options.others else ():
                 seconds = numpy.inf
                 for _ in range(options.runs):
                     start = time.perf_counter()
-                    other = simplify_others.by_meshoptimizer(*given, len(made[1]))
+                    other = simplifier(*given, len(made[1]))
                     seconds = min(seconds, time.perf_counter() - start)
-                rows.append(measured(options, path, "meshoptimizer", given, other, seconds))
+                rows.append(measured(options, path, name, given, other, seconds))
             if options.csv:
                 measure.write_csv(options.csv, rows)
     return rows

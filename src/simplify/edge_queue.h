@@ -17,6 +17,8 @@ class EdgeQueue {
   [[nodiscard]] bool empty() const { return heap_.empty(); }
   [[nodiscard]] std::uint32_t top() const { return heap_.front().edge; }
 
+  [[nodiscard]] bool has(std::uint32_t edge) const { return place_[edge] != kNone; }
+
   /// Puts the edge in, or changes its cost. O(log n).
   void set(std::uint32_t edge, double cost) {
     std::uint32_t place = place_[edge];

@@ -1,6 +1,7 @@
 // Where the vertices are, and what follows from it for the triangles around each.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "simplify/collapse_mesh.h"
@@ -18,12 +19,12 @@ struct Star {
 
 class PatchGeometry {
  public:
-  /// The mesh must outlive this. O(n).
-  PatchGeometry(const CollapseMesh& mesh, std::vector<Vec3> positions);
+  /// The positions times the scale. The mesh must outlive this. O(n).
+  PatchGeometry(const CollapseMesh& mesh, std::span<const Vec3> positions, double scale = 1);
 
-  [[nodiscard]] const Vec3& position(std::uint32_t v) const { return positions_[v]; }
+  [[nodiscard]] const Vec3& position(std::uint32_t v) const { return vertices_[v].position; }
   [[nodiscard]] const Vec3& normal(std::uint32_t f) const { return normals_[f]; }
-  [[nodiscard]] const Star& star(std::uint32_t v) const { return stars_[v]; }
+  [[nodiscard]] const Star& star(std::uint32_t v) const { return vertices_[v].star; }
 
   /// Also brings up to date what hangs on it, from the triangles that are there now: no sum drifts.
   void move(std::uint32_t v, const Vec3& point);
@@ -40,9 +41,12 @@ class PatchGeometry {
   [[nodiscard]] Star star_of(std::uint32_t v) const;
 
   const CollapseMesh& mesh_;
-  std::vector<Vec3> positions_;
+  struct Vertex {
+    Vec3 position;
+    Star star;
+  };
+  std::vector<Vertex> vertices_;
   std::vector<Vec3> normals_;
-  std::vector<Star> stars_;
 };
 
 }  // namespace wrapatlas

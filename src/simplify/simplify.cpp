@@ -29,11 +29,6 @@ double scale_of(const std::vector<Vec3>& points) {
   return largest > 0 ? std::exp2(-std::clamp(std::ilogb(largest), -500, 500)) : 1;
 }
 
-std::vector<Vec3> scaled(std::vector<Vec3> points, double scale) {
-  for (Vec3& p : points) p = scale * p;
-  return points;
-}
-
 class Simplifier {
  public:
   Simplifier(const SurfaceTriangles& triangles, const Surface& surface, const SimplifyOptions& options)
@@ -42,9 +37,10 @@ class Simplifier {
         options_(options),
         scale_(scale_of(surface.points)),
         mesh_(surface),
-        geometry_(mesh_, scaled(surface.points, scale_)),
+        geometry_(mesh_, surface.points, scale_),
         creases_(triangles.mesh, surface, mesh_, options.keep_uv_seams),
         queue_(mesh_.edge_numbers()),
+        is_stale_(mesh_.edge_numbers(), 0),
         ring_mark_(mesh_.vertex_numbers(), 0) {
     if (options.keep_uv_seams) wedges_.emplace(triangles.mesh, surface, mesh_, creases_);
     report_.surface = surface.report;
@@ -97,6 +93,7 @@ class Simplifier {
 
   void price(std::uint32_t edge) {
     const std::uint32_t c = mesh_.corner_of_edge(edge);
+    is_stale_[edge] = 0;
     if (creases_.allow(mesh_, c)) {
       queue_.set(edge, place(mesh_, geometry_, c, creases_.is_seam()).cost);
     } else {
@@ -104,9 +101,10 @@ class Simplifier {
     }
   }
 
-  /// Or takes its edge out of the queue, until something near it changes.
+  /// Or takes its edge out of the queue, until something near it changes; or finds its cost anew.
   void collapse_cheapest() {
     const std::uint32_t edge = queue_.top(), c = mesh_.corner_of_edge(edge);
+    if (is_stale_[edge] != 0) return price(edge);
     const Vec3 point = place(mesh_, geometry_, c, creases_.is_seam()).point;
     if (!may_collapse(c, point)) {
       queue_.remove(edge);
@@ -129,7 +127,8 @@ class Simplifier {
            (!wedges_ || wedges_->prepare(mesh_, geometry_, creases_, c, point));
   }
 
-  /// All edges of the vertex and of its neighbours, each once.
+  /// The edges of the vertex and those between its neighbours at once; those farther out, of which
+  /// one end's triangles have changed, when they become the cheapest.
   void price_around(std::uint32_t v) {
     ++ring_stamp_;
     ring_.clear();
@@ -138,10 +137,15 @@ class Simplifier {
       ring_.push_back(u);
       price(mesh_.edge(c));
     });
+    for (const std::uint32_t u : ring_) ring_mark_[u] = ring_stamp_;
     for (const std::uint32_t u : ring_) {
-      ring_mark_[u] = ring_stamp_;  // edges to those marked before have been priced
       mesh_.each_edge(u, [&](std::uint32_t w, std::uint32_t c) {
-        if (ring_mark_[w] != ring_stamp_) price(mesh_.edge(c));
+        const std::uint32_t edge = mesh_.edge(c);
+        if (ring_mark_[w] != ring_stamp_ && queue_.has(edge)) {
+          is_stale_[edge] = 1;
+        } else if (w != v && (ring_mark_[w] != ring_stamp_ || w < u)) {
+          price(edge);
+        }
       });
     }
   }
@@ -175,6 +179,7 @@ class Simplifier {
   Creases creases_;
   EdgeQueue queue_;
   std::optional<UvWedges> wedges_;
+  std::vector<std::uint8_t> is_stale_;  ///< per edge
   std::vector<std::uint32_t> ring_, ring_mark_;
   std::uint32_t ring_stamp_ = 0;
   SimplifyReport report_;

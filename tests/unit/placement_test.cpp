@@ -138,7 +138,8 @@ TEST(Placement, KeepsTheAreaBesideABorder) {
                       test::uniform(random, -1, 1)};
       EXPECT_GE(length(oracle.areas(placed.point + 1e-3 * step).first), length(sum) - 1e-12);
     }
-    EXPECT_NEAR(placed.cost, oracle.cost(placed.point), 1e-8 * placed.cost + 1e-14);
+    const double cubed = oracle.edge2 * oracle.edge2 * oracle.edge2;
+    EXPECT_NEAR(placed.cost, oracle.cost(placed.point) + 1e-9 / 36 * cubed, 1e-9 * placed.cost);
   }
   EXPECT_GT(seen, 60);
 }
@@ -198,9 +199,15 @@ std::vector<Triangle> collapsed(std::vector<Triangle> triangles, std::uint32_t a
   return left;
 }
 
+std::size_t points_of(const std::vector<Triangle>& triangles) {
+  std::set<std::uint32_t> points;
+  for (const Triangle& t : triangles) points.insert(t.begin(), t.end());
+  return points.size();
+}
+
 TEST(CollapseMesh, CollapsesWhatKeepsTheTopologyAndNothingElse) {
   const std::vector<Mesh> meshes{test::ball(4),
-                                 test::torus(5),
+                                 test::torus(4),
                                  test::tube(4, 1),
                                  test::sheet(3),
                                  test::grid_mesh(4, 1, {false, false}, false,
@@ -210,7 +217,7 @@ TEST(CollapseMesh, CollapsesWhatKeepsTheTopologyAndNothingElse) {
                                  test::both(test::ball(3), test::moved(test::sheet(2), {9, 0, 0}))};
   int may = 0, may_not = 0;
   for (const Mesh& mesh : meshes) {
-    for (std::uint64_t seed = 0; seed < 10; ++seed) {
+    for (std::uint64_t seed = 0; seed < 3; ++seed) {
       std::mt19937_64 random(seed);
       Setting s(mesh);
       while (true) {
@@ -223,7 +230,9 @@ TEST(CollapseMesh, CollapsesWhatKeepsTheTopologyAndNothingElse) {
           if (c == kNone) continue;
           ASSERT_EQ(s.mesh.edge(c), e);
           const std::uint32_t a = s.mesh.vertex(c), b = s.mesh.vertex(s.mesh.next(c));
-          const bool keeps = test::topology_of(collapsed(triangles, a, b)) == topology;
+          const auto after = collapsed(triangles, a, b);
+          const bool keeps = test::topology_of(after) == topology &&
+                             points_of(after) + 1 == points_of(triangles);  // b alone is gone
           ASSERT_EQ(s.mesh.can_collapse(c), keeps)
               << triangles.size() << " triangles, seed " << seed;
           (keeps ? may : may_not) += 1;

@@ -98,6 +98,15 @@ class ValidatorTest(support.CommandTest):
         self.succeed("unwrap", "bare.glb", "-o", "first.glb", "--time", 0)
         self.validate(*names, "bare.glb", "first.glb")
 
+    def test_moved_textures(self):
+        names = []
+        for name, maker in (("a", gltf_maker.textured()), ("t", gltf_maker.textured(True))):
+            self.write(f"{name}.glb", maker.glb())
+            for ending in ("glb", "gltf"):
+                names.append(f"{name}_moved.{ending}")
+                self.succeed("transfer", f"{name}.glb", "-o", names[-1], "--time", 0)
+        self.validate(*names)
+
     def test_samples_and_other_formats(self):
         names = []
         for source in support.PACKABLE:

@@ -1,0 +1,173 @@
+"""wrapatlas transfer: a textured glTF gets a new atlas, and looks as before."""
+
+import json
+import struct
+import unittest
+import zlib
+
+import gltf_maker
+import support
+
+
+def png(width, height, pixel):
+    """An RGB picture; pixel(x, y) gives three numbers from 0 to 255."""
+    rows = b"".join(b"\0" + bytes(value for x in range(width) for value in pixel(x, y))
+                    for y in range(height))
+
+    def chunk(kind, data):
+        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I",
+                                                                        zlib.crc32(kind + data))
+    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 2, 0,
+                                                              0, 0))
+            + chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b""))
+
+
+def smooth(x, y):
+    return 255 * x // 63, 255 * y // 63, 128
+
+
+def parts(path):
+    """(JSON, binary) of a GLB."""
+    data = path.read_bytes()
+    size = struct.unpack("<I", data[12:16])[0]
+    return json.loads(data[20:20 + size]), data[28 + size:]
+
+
+class Transfer(support.CommandTest):
+    def maker(self, picture=png(64, 64, smooth), transform=False, **slots):
+        """The can with a picture as its base colour, and as what else is asked for."""
+        maker = gltf_maker.textured(transform)
+        # Of the one white pixel nothing is left.
+        maker.json["images"] = [{"bufferView": maker.view(picture), "mimeType": "image/png"}]
+        maker.json["materials"][0].update(slots)
+        return maker
+
+    def transfer(self, source, output, *options):
+        report = self.report("transfer", source, "-o", output, "--time", 0, "--padding", 2,
+                             "--quiet", *options)
+        self.assertTrue(all(self.report("info", output)["charts"][key] == 0
+                            for key in ("self_overlapping", "faces_without_uv")))
+        return report
+
+    def picture_of(self, name):
+        gltf, binary = parts(self.path(name))
+        view = gltf["bufferViews"][gltf["images"][0]["bufferView"]]
+        self.path(name + ".png").write_bytes(
+            binary[view["byteOffset"]:view["byteOffset"] + view["byteLength"]])
+        return name + ".png"
+
+    def likeness(self, before, after, wrap):
+        """PSNR of the two as they are seen; the first one's sampler clamps."""
+        for name, more in ((before, ("--wrap", "none")),
+                           (after, ("--wrap", wrap, "--compare", before + ".view.png"))):
+            report = self.report("render", name, "-o", name + ".view.png", "--texture",
+                                 self.picture_of(name), "--shade", "none", "--size", 128,
+                                 "--quiet", *more)
+        return report["psnr"]
+
+    def test_looks_as_before(self):
+        self.write("a.glb", self.maker().glb())
+        report = self.transfer("a.glb", "b.glb")
+        self.assertGreaterEqual(report["texel_scale"], 1)
+        self.assertEqual(report["width"] % 4, 0)
+        self.assertGreater(self.likeness("a.glb", "b.glb", "uv"), 40)
+        gltf, _ = parts(self.path("b.glb"))
+        self.assertEqual(len(gltf["images"]), 1)
+        self.assertEqual(gltf["samplers"][gltf["textures"][-1]["sampler"]],
+                         {"wrapS": 10497, "wrapT": 10497})
+        self.assertEqual(gltf["nodes"][0]["extras"], {"kept": 1})
+
+    def test_a_size_and_no_wrap(self):
+        self.write("a.glb", self.maker().glb())
+        report = self.transfer("a.glb", "b.glb", "--resolution", "256x128", "--wrap", "none",
+                               "--image", "atlas.png")
+        self.assertEqual((report["width"], report["height"], report["wrap"]), (256, 128, "none"))
+        self.assertGreater(self.likeness("a.glb", "b.glb", "none"), 40)
+        self.assertTrue(self.path("atlas.png").exists())
+        low, high = (self.report("info", "b.glb")["charts"][key] for key in ("uv_min", "uv_max"))
+        self.assertGreaterEqual(min(low), 0)
+        self.assertLessEqual(max(high), 1)
+
+    def test_a_texture_transform_goes_into_the_texture(self):
+        self.write("a.glb", self.maker(transform=True).glb())
+        self.transfer("a.glb", "b.glb")
+        gltf, _ = parts(self.path("b.glb"))
+        self.assertNotIn("extensions", gltf["materials"][0]["pbrMetallicRoughness"]
+                         ["baseColorTexture"])
+        self.assertNotIn("extensionsUsed", gltf)
+
+    def test_what_is_read_alike_is_one_texture(self):
+        maker = self.maker(occlusionTexture={"index": 0}, emissiveTexture={"index": 0})
+        maker.json["materials"][0]["pbrMetallicRoughness"]["metallicRoughnessTexture"] = {
+            "index": 0}
+        self.write("a.glb", maker.glb())
+        report = self.transfer("a.glb", "b.glb")
+        # Base colour and emission are colours, the others data.
+        self.assertEqual(len(report["textures"]), 2)
+        gltf, _ = parts(self.path("b.glb"))
+        material = gltf["materials"][0]
+        metal = material["pbrMetallicRoughness"]
+        self.assertEqual(metal["baseColorTexture"]["index"], material["emissiveTexture"]["index"])
+        self.assertEqual(metal["metallicRoughnessTexture"]["index"],
+                         material["occlusionTexture"]["index"])
+        self.assertEqual(len(gltf["images"]), 2)
+
+    def test_materials_share_the_new_texture(self):
+        maker = self.maker()
+        other = maker.view(png(16, 16, lambda x, y: (200, 10, 10)))
+        maker.json["images"].append({"bufferView": other, "mimeType": "image/png"})
+        maker.json["textures"].append({"source": 1})
+        maker.json["materials"].append(
+            {"pbrMetallicRoughness": {"baseColorTexture": {"index": 1}}})
+        first = maker.json["meshes"][0]["primitives"][0]
+        maker.node(mesh=maker.mesh({**first, "material": 1}), translation=[5, 0, 0])
+        self.write("a.glb", maker.glb())
+        report = self.transfer("a.glb", "b.glb")
+        self.assertEqual((report["images_before"], len(report["textures"])), (2, 1))
+        gltf, _ = parts(self.path("b.glb"))
+        indices = {material["pbrMetallicRoughness"]["baseColorTexture"]["index"]
+                   for material in gltf["materials"]}
+        self.assertEqual(len(indices), 1)
+        self.assertEqual(len(gltf["images"]), 1)
+
+    def test_side_files(self):
+        maker = self.maker()
+        maker.json["images"] = [{"uri": "a%20b.png"}]
+        self.path("a b.png").write_bytes(png(64, 64, smooth))
+        self.write("a.bin", bytes(maker.binary))
+        self.write("a.gltf", maker.document("a.bin"))
+        self.transfer("a.gltf", "b.glb")
+        self.transfer("a.gltf", "c.gltf")
+        self.assertEqual(self.report("info", "c.gltf")["charts"],
+                         self.report("info", "b.glb")["charts"])
+        self.path("a b.png").write_bytes(b"no picture")
+        self.refuse(3, ("image 0", "PNG"), "transfer", "a.gltf", "-o", "d.glb")
+        self.path("a b.png").unlink()
+        self.refuse(3, ("a b.png",), "transfer", "a.gltf", "-o", "d.glb")
+
+    def test_refuses(self):
+        self.write("a.glb", self.maker().glb())
+        self.write("plain.glb", gltf_maker.plain().glb())
+        self.sample("machine.obj")
+        self.refuse(3, ("plain.glb", "no textures"), "transfer", "plain.glb", "-o", "b.glb")
+        self.refuse(2, ("machine.obj", "glTF"), "transfer", "machine.obj", "-o", "b.obj")
+        self.refuse(2, ("b.obj", "format"), "transfer", "a.glb", "-o", "b.obj")
+        for options in (("--density", 5), ("--pages", 2), ("--udim",), ("--export", "cut"),
+                        ("--aspect", "2:1"), ("--bits", 12)):
+            with self.subTest(options=options):
+                self.refuse(2, (options[0],), "transfer", "a.glb", "-o", "b.glb", *options)
+        self.refuse(2, ("overwrite", "--json"), "transfer", "a.glb", "-o", "b.glb", "--json",
+                    "a.glb")
+        self.refuse(3, ("nowhere",), "transfer", "a.glb", "-o", "nowhere/b.glb")
+        # Repeated so often that each place's own texels would be too many.
+        tiled = self.maker(picture=png(1024, 1024, lambda x, y: (x % 256, y % 256, 0)),
+                           transform=True)
+        info = tiled.json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"]
+        info["extensions"]["KHR_texture_transform"]["scale"] = [50, 50]
+        self.write("tiled.glb", tiled.glb())
+        self.refuse(4, ("tiled.glb", "--resolution"), "transfer", "tiled.glb", "-o", "b.glb")
+        self.assertFalse(self.path("b.glb").exists())
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <numbers>
 
 #include "common.h"
@@ -87,8 +88,21 @@ Status resolve(const CLI::App& app, BakeArguments& a) {
   return check_texcoord(a.texcoord, std::span(&a.low, 1));
 }
 
+/// "map.png" -> "map.3.png"
+std::string level_path(const std::string& path, std::size_t level) {
+  return fmt::format("{}.{}.png", path.substr(0, path.size() - 4), level);
+}
+
 Status check_files(const BakeArguments& a, const Model& low, const Model& high) {
   std::vector<OutputPath> outputs = a.outputs;
+  std::size_t levels = 0;
+  if (a.mips)
+    levels = std::bit_width(static_cast<unsigned>(std::max(a.options.width, a.options.height)));
+  for (const OutputPath& map : a.outputs) {
+    for (std::size_t level = 1; level < levels; ++level) {
+      outputs.push_back({"--mips", level_path(map.path, level)});
+    }
+  }
   outputs.push_back({"--json", a.json});
   if (const Status ok = refuse_equal_outputs(outputs); !ok) return ok;
   if (const Status ok = refuse_overwriting(a.low, low, outputs); !ok) return ok;
@@ -107,11 +121,6 @@ MipFilter filter_of(BakedMap map) {
   if (map == BakedMap::color) return MipFilter::srgb;
   return map == BakedMap::positions || map == BakedMap::occlusion ? MipFilter::mean
                                                                   : MipFilter::normals;
-}
-
-/// "map.png" -> "map.3.png"
-std::string level_path(const std::string& path, std::size_t level) {
-  return fmt::format("{}.{}.png", path.substr(0, path.size() - 4), level);
 }
 
 Status save_map(const BakeArguments& a, std::size_t number, Texture& texture) {

@@ -61,6 +61,10 @@ class Bake(support.CommandTest):
                  for name in ("n.png", "n.1.png", "n.2.png", "n.3.png")]
         self.assertEqual(sizes, [(8, 4), (4, 2), (2, 1), (1, 1)])
         self.assertFalse(self.path("n.4.png").exists())
+        same = ("bake", "low.obj", "high.obj", "-o", "n.png", "--resolution", "8x4", "--mips")
+        self.refuse(2, ("--mips n.2.png", "same file"), *same, "--also", "occlusion=n.2.png")
+        self.refuse(2, ("n.1.png", "--color-from"), *same, "--map", "color", "--color-from",
+                    "n.1.png")
 
     def test_colour_of_a_texture(self):
         # What is baked on the same UVs at the same size is the texture itself.

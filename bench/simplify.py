@@ -174,7 +174,7 @@ def measure_all(options):
 
 
 def cells(row):
-    change = "" if numpy.isnan(row.volume) else f"{row.volume:+.1g}"
+    change = "" if numpy.isnan(row.volume) else f"{row.volume:+.2g}"
     return (f"{row.file} {row.kind}".strip(), row.method, row.before, row.after,
             f"{row.seconds:.3f}", f"{(row.before - row.after) / row.seconds / 1000:.0f}", change,
             f"{row.mean:.2f}", f"{row.hausdorff:.2f}")

@@ -61,7 +61,7 @@ def measured(options, source, folder):
         baked = report(options, what, "bake", atlas, source, "-o", normals, "--map", "object",
                        "--resolution", options.resolution, "--wrap", wrap)
         seen = report(options, what, "render", atlas, "-o", image, "--normal-map", normals,
-                      "--space", "object", *view, "--compare", truth)
+                      "--space", "object", *view, "--framed-as", source, "--compare", truth)
         if options.images:
             keep(options.images, source, method, normals, image)
         yield Row(str(source), method, simplified["faces"], packed["efficiency"],

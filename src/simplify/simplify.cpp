@@ -31,7 +31,8 @@ double scale_of(const std::vector<Vec3>& points) {
 
 class Simplifier {
  public:
-  Simplifier(const SurfaceTriangles& triangles, const Surface& surface, const SimplifyOptions& options)
+  Simplifier(const SurfaceTriangles& triangles, const Surface& surface,
+             const SimplifyOptions& options)
       : triangles_(triangles),
         surface_(surface),
         options_(options),

@@ -25,8 +25,8 @@ SurfaceTriangles surface_triangles(const Mesh& mesh) {
     }
     for (std::size_t i = 0; i < 3; ++i) {
       kept.corner_position.push_back(position[i]);
-      kept.corner_texcoord.push_back(
-          has_uvs ? all.mesh.corner_texcoord[std::size_t{3} * t + i] : kNone);
+      kept.corner_texcoord.push_back(has_uvs ? all.mesh.corner_texcoord[std::size_t{3} * t + i]
+                                             : kNone);
     }
     kept.face_begin.push_back(static_cast<std::uint32_t>(kept.corner_position.size()));
     if (!mesh.face_object.empty()) kept.face_object.push_back(mesh.face_object[face]);

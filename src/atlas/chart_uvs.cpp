@@ -5,9 +5,6 @@
 namespace wrapatlas {
 namespace {
 
-/// A packing may reach over a side that does not wrap by this much, by rounding.
-constexpr double kOutside = 1e-9;
-
 // A smallest value of -1e-17 would become 1.0 when a period is added: it stays, and becomes 0.
 double shift_into_first_period(double smallest) {
   const double shift = -std::floor(smallest);

@@ -8,6 +8,9 @@
 
 namespace wrapatlas {
 
+/// A packing may reach over a side that does not wrap by this much of it, by rounding.
+inline constexpr double kOutside = 1e-9;
+
 /// u = texel x / width, v = texel y / height of each point of the chart. On axes that wrap they
 /// are shifted by whole periods so that the smallest lies in [0,1); of several pages so that it
 /// still does once it was moved to its tile and rounded to float. With `v_points_down` and several

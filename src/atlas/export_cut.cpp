@@ -11,9 +11,6 @@
 namespace wrapatlas {
 namespace {
 
-/// A packing may reach over a side that does not wrap by this much, by rounding.
-constexpr double kOutside = 1e-9;
-
 double snapped(double value) {
   const double nearest = std::round(value);
   return std::abs(value - nearest) <= kSamePlace ? nearest : value;

@@ -9,22 +9,19 @@
 #include "bake/high_surface.h"
 #include "bake/low_surface.h"
 #include "bake/texel_samples.h"
+#include "bake/texture_size.h"
 #include "mesh/triangulate.h"
 #include "threads/parallel.h"
 
 namespace wrapatlas {
 namespace {
 
-constexpr int kMostSide = 65536;
-
 Error usage(const char* where, const char* what, const char* remedy) {
   return {ErrorKind::usage, where, what, remedy};
 }
 
 Status check_options(const BakeSource& high, std::span<const BakedMap> maps, const BakeOptions& o) {
-  if (o.width < 1 || o.height < 1 || o.width > kMostSide || o.height > kMostSide) {
-    return usage("size", "a side is not from 1 to 65536 texels", "choose another");
-  }
+  if (Status size = check_texture_size(o.width, o.height); !size) return size;
   if (o.samples < 1 || o.samples > 16) return usage("samples", "not from 1 to 16", "2 is usual");
   if (!(o.distance >= 0) || !(o.occlusion_distance >= 0)) {
     return usage("distance", "less than 0", "0 chooses one");

@@ -8,6 +8,7 @@
 #include <mutex>
 
 #include "bake/texel_samples.h"
+#include "bake/texture_size.h"
 #include "bake/triangle_point.h"
 #include "mesh/polygon_plane.h"
 #include "mesh/triangulate.h"
@@ -199,11 +200,7 @@ Status check(const Mesh& before, const Mesh& after, std::span<const std::uint32_
   const auto usage = [](const char* where, const char* what, const char* remedy) {
     return Error{ErrorKind::usage, where, what, remedy};
   };
-  constexpr int kMostSide = 65536;
-  if (options.width < 1 || options.height < 1 || options.width > kMostSide ||
-      options.height > kMostSide) {
-    return usage("size", "a side is not from 1 to 65536 texels", "choose another");
-  }
+  if (Status size = check_texture_size(options.width, options.height); !size) return size;
   if (before.face_begin != after.face_begin || before.corner_position != after.corner_position) {
     return usage("meshes", "they differ in more than their UVs", "pass the same faces");
   }

@@ -112,14 +112,14 @@ WRAPATLAS_AVX512 void search_avx512(const Field& field, const Piece& piece, cons
                                     Shift& best) {
   search<Avx512Costs>(field, piece, range, best);
 }
-constexpr Versions<BestShiftKernel> kVersions{search_scalar, search_avx2, search_avx512};
+constexpr Versions<BestShiftKernel> kBestShiftVersions{search_scalar, search_avx2, search_avx512};
 #else
-constexpr Versions<BestShiftKernel> kVersions{search_scalar, nullptr, nullptr};
+constexpr Versions<BestShiftKernel> kBestShiftVersions{search_scalar, nullptr, nullptr};
 #endif
 
 }  // namespace
 
-std::vector<BestShiftKernel> best_shift_kernels() { return kVersions.usable(); }
+std::vector<BestShiftKernel> best_shift_kernels() { return kBestShiftVersions.usable(); }
 
 void best_shift(const Field& field, const Piece& piece, const ShiftRange& range, Shift& best) {
   static const BestShiftKernel widest = best_shift_kernels().front();

@@ -75,9 +75,9 @@ WRAPATLAS_AVX512 bool scan_avx512(const Occupancy& occupancy, std::span<const Pr
                                   int first_word, int words, std::uint64_t* free) {
   return scan<Avx512Words>(occupancy, probes, y, first_word, words, free);
 }
-constexpr Versions<FreeRowKernel> kVersions{scan_scalar, scan_avx2, scan_avx512};
+constexpr Versions<FreeRowKernel> kFreeRowVersions{scan_scalar, scan_avx2, scan_avx512};
 #else
-constexpr Versions<FreeRowKernel> kVersions{scan_scalar, nullptr, nullptr};
+constexpr Versions<FreeRowKernel> kFreeRowVersions{scan_scalar, nullptr, nullptr};
 #endif
 
 }  // namespace
@@ -121,7 +121,7 @@ std::uint64_t open_blocks(const Occupancy& occupancy, const Probes& probes, int 
   return open;
 }
 
-std::vector<FreeRowKernel> free_row_kernels() { return kVersions.usable(); }
+std::vector<FreeRowKernel> free_row_kernels() { return kFreeRowVersions.usable(); }
 
 bool free_row(const Occupancy& occupancy, std::span<const Probe> probes, int y, int first_word,
               int words, std::uint64_t* free) {

@@ -92,7 +92,7 @@ class EdgePatch {
     determinant_ = dot(at_b.normal, edge_);
   }
 
-  [[nodiscard]] Placement place(std::span<const std::uint8_t> is_seam) const {
+  [[nodiscard]] EdgePlacement place(std::span<const std::uint8_t> is_seam) const {
     const Lines lines = lines_of(is_seam);
     const double edge2 = dot(edge_, edge_);
     const double line_share = 9 * kLineWeight / kVolumeWeight * edge2;  // of 1/36: 1/4
@@ -153,8 +153,8 @@ class EdgePatch {
 
 }  // namespace
 
-Placement place(const CollapseMesh& mesh, const PatchGeometry& geometry, std::uint32_t c,
-                std::span<const std::uint8_t> is_seam) {
+EdgePlacement place(const CollapseMesh& mesh, const PatchGeometry& geometry, std::uint32_t c,
+                    std::span<const std::uint8_t> is_seam) {
   return EdgePatch(mesh, geometry, c).place(is_seam);
 }
 

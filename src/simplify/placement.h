@@ -12,14 +12,14 @@
 
 namespace wrapatlas {
 
-struct Placement {
+struct EdgePlacement {
   Vec3 point;
   double cost = 0;  ///< length to the sixth power, >= 0
 };
 
 /// Of the edge of c. `is_seam` per number of an edge: a line that is to stay in its place, as
 /// borders are; or empty. O(1) inside, O(d) for vertices of degree d in flat places and at lines.
-Placement place(const CollapseMesh& mesh, const PatchGeometry& geometry, std::uint32_t c,
-                std::span<const std::uint8_t> is_seam);
+EdgePlacement place(const CollapseMesh& mesh, const PatchGeometry& geometry, std::uint32_t c,
+                    std::span<const std::uint8_t> is_seam);
 
 }  // namespace wrapatlas

@@ -10,7 +10,7 @@ namespace wrapatlas::validate {
 namespace {
 
 constexpr double kUnknown = std::numeric_limits<double>::infinity();
-constexpr double kSameTexcoord = 1e-9;           // of an edge
+constexpr double kOnEdge = 1e-9;                 // of an edge
 constexpr double kBeside = 1.0 / 32;             // of an edge
 constexpr double kArithmetic = 1e-15;            // relative, of a place computed between others
 constexpr std::uint32_t kMostTriangleEnds = 16;  // beyond, what lies in their box is on the face
@@ -218,7 +218,7 @@ bool ReferenceFace::elsewhere_too(const Vec3& p, const FaceMatch::Corner& found,
   if (long_enough == 0) return !(uv(i) == found.uv && uv(j) == found.uv);
   const Vec2 along = uv(j) - uv(i);
   const double doubt = found.doubt + 2 * rounding_ * length(along) / long_enough;
-  return length(uv(i) + on.t * along - found.uv) > doubt + kSameTexcoord * length(along);
+  return length(uv(i) + on.t * along - found.uv) > doubt + kOnEdge * length(along);
 }
 
 /// In a triangle the map is known; in a larger face it depends on how someone cut it up.

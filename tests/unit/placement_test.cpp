@@ -96,7 +96,7 @@ TEST(Placement, KeepsVolumeAndIsBestAsFarAsThatGoes) {
     for (std::uint32_t e = 0; e < s.mesh.edge_numbers(); ++e) {
       const std::uint32_t c = s.mesh.corner_of_edge(e);
       const Oracle oracle(s, s.mesh.vertex(c), s.mesh.vertex(s.mesh.next(c)));
-      const Placement placed = place(s.mesh, s.geometry, c, {});
+      const EdgePlacement placed = place(s.mesh, s.geometry, c, {});
       Vec3 normal;
       double size = 0;
       for (const auto& [p, q, r] : oracle.touched) {
@@ -131,7 +131,7 @@ TEST(Placement, KeepsTheAreaBesideABorder) {
     const Oracle oracle(s, s.mesh.vertex(c), s.mesh.vertex(s.mesh.next(c)));
     if (oracle.borders.empty() || oracle.borders.size() > 3) continue;
     ++seen;
-    const Placement placed = place(s.mesh, s.geometry, c, {});
+    const EdgePlacement placed = place(s.mesh, s.geometry, c, {});
     const Vec3 sum = oracle.areas(placed.point).first;
     for (int i = 0; i < 20; ++i) {
       const Vec3 step{test::uniform(random, -1, 1), test::uniform(random, -1, 1),
@@ -152,7 +152,7 @@ TEST(Placement, InAPlaneItIsTheMiddleOfTheLink) {
   for (std::uint32_t e = 0; e < s.mesh.edge_numbers(); ++e) {
     const std::uint32_t c = s.mesh.corner_of_edge(e);
     const Oracle oracle(s, s.mesh.vertex(c), s.mesh.vertex(s.mesh.next(c)));
-    const Placement placed = place(s.mesh, s.geometry, c, {});
+    const EdgePlacement placed = place(s.mesh, s.geometry, c, {});
     if (!oracle.borders.empty()) continue;
     ++seen;
     Vec3 middle;

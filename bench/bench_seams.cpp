@@ -188,8 +188,10 @@ int bench_seams(const SeamBenchOptions& options) {
     return 1;
   }
   Scene scene{triangulated(low->mesh).mesh, low->v_points_down, {}};
-  const Mesh high_triangles = triangulated(high->mesh).mesh;
-  const BakeSource source{&high_triangles, nullptr, high->v_points_down};
+  const Triangulated high_triangles = triangulated(high->mesh);
+  BakeSource source;
+  source.mesh = &high->mesh;
+  source.v_points_down = high->v_points_down;
   BakeOptions bake_options;
   bake_options.width = bake_options.height = options.resolution;
   bake_options.v_points_down = low->v_points_down;

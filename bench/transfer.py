@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
 """Textured models by `wrapatlas transfer`: texels before and after, and how like the original the
-result looks, rendered without light from several sides, as a Markdown table. The base colour is
-compared, of models that have one picture of it; every result is read by the Khronos validator
-(./dev test installs it). Needs nothing but Python. Progress goes to stderr."""
+result looks, its base colours rendered without light from several sides, as a Markdown table. Every
+glTF that is written is read by the Khronos validator (./dev test installs it). Models that cannot
+be moved are named below the table. Needs nothing but Python. Progress goes to stderr."""
 
 import argparse
 import json
 import pathlib
-import struct
+import shutil
 import sys
 import tempfile
 
@@ -18,78 +18,72 @@ VALIDATOR = measure.REPOSITORY / "tests" / "gltf" / "validate.mjs"
 
 def arguments():
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("files", nargs="+", type=pathlib.Path, help="GLB files")
+    parser.add_argument("files", nargs="+", type=pathlib.Path, help="glTF or OBJ files")
     measure.add_options(parser, resolution="", padding="4")
     parser.add_argument("--time", default="1", help="of guided, seconds; default 1")
     parser.add_argument("--size", default="512", help="pixels of a view; default 512")
     parser.add_argument("--views", default="6", help="default 6")
+    parser.add_argument("--unwrap", dest="how", action="append_const", const="--unwrap",
+                        default=[], help="into new charts")
+    parser.add_argument("--merge", dest="how", action="append_const", const="--merge",
+                        help="all materials into one atlas")
+    parser.add_argument("--keep", type=pathlib.Path, help="folder for the pictures")
     return parser.parse_args()
 
 
-def glb_parts(path):
-    """(JSON, bytes of the BIN chunk)."""
-    data = path.read_bytes()
-    size = struct.unpack("<I", data[12:16])[0]
-    return json.loads(data[20:20 + size]), data[28 + size:]
-
-
-def base_colours(path):
-    """The bytes of each picture of a base colour."""
-    gltf, binary = glb_parts(path)
-    pictures = {}
-    for material in gltf.get("materials", []):
-        info = material.get("pbrMetallicRoughness", {}).get("baseColorTexture")
-        if info is None:
-            continue
-        source = gltf["textures"][info["index"]]["source"]
-        view = gltf["bufferViews"][gltf["images"][source]["bufferView"]]
-        begin = view.get("byteOffset", 0)
-        pictures[source] = binary[begin:begin + view["byteLength"]]
-    return list(pictures.values())
-
-
-def rendered(options, model, picture, folder, name, *more):
-    texture, image = folder / f"{name}.picture", folder / f"{name}.png"
-    texture.write_bytes(picture)
-    report = measure.run([options.wrapatlas, "render", str(model), "-o", str(image), "--texture",
-                          str(texture), "--shade", "none", "--views", options.views, "--size",
-                          options.size, "--quiet", "--json", "-", *more], str(model))
-    return image, json.loads(report)
+def rendered(options, model, image, *more):
+    report = measure.run([options.wrapatlas, "render", str(model), "-o", str(image), "--shade",
+                          "none", "--views", options.views, "--size", options.size, "--quiet",
+                          "--json", "-", *more], str(model))
+    return json.loads(report)
 
 
 def row(options, source, folder):
-    moved = folder / "moved.glb"
+    moved = folder / f"moved{source.suffix}"
     size = ["--resolution", options.resolution] if options.resolution else []
     report = json.loads(measure.run(
         [options.wrapatlas, "transfer", str(source), "-o", str(moved), "--padding",
          options.padding, "--time", options.time, "--threads", options.threads, "--quiet",
-         "--json", "-", *size], str(source)))
-    measure.run(["node", str(VALIDATOR), str(moved)], f"{source}: the validator")
-    before, after = base_colours(source), base_colours(moved)
-    likeness = {"psnr": None, "ssim": None}
-    if len(before) == 1 and len(after) == 1:
-        truth, _ = rendered(options, source, before[0], folder, "before")
-        _, likeness = rendered(options, moved, after[0], folder, "after", "--compare", str(truth))
-    show = lambda value, form: "" if value is None else f"{value:{form}}"
-    return [source.name if source.stem not in ("left", "right", "none") else
-            f"{source.parent.name}/{source.stem}", report["charts"], report["images_before"],
-            f"{report['texels_before'] / 1e6:.2f}", len(report["textures"]),
-            f"{report['width']} x {report['height']}", f"{report['texels'] / 1e6:.2f}",
+         "--json", "-", *size, *options.how], str(source)))
+    if source.suffix in (".glb", ".gltf"):
+        measure.run(["node", str(VALIDATOR), str(moved)], f"{source}: the validator")
+    rendered(options, source, folder / "before.png")
+    likeness = rendered(options, moved, folder / "after.png", "--compare",
+                        str(folder / "before.png"))
+    if options.keep:
+        for name in ("before.png", "after.png"):
+            shutil.copy(folder / name, options.keep / f"{source.stem}.{name}")
+    atlases = report["atlases"]
+    name = source.name if source.stem not in ("left", "right", "none") else \
+        f"{source.parent.name}/{source.stem}"
+    psnr = likeness["psnr"]
+    return [name, sum(atlas["charts"] for atlas in atlases), report["images_before"],
+            f"{report['texels_before'] / 1e6:.2f}", report["images"],
+            ", ".join(f"{atlas['width']} x {atlas['height']}" for atlas in atlases),
+            f"{report['texels'] / 1e6:.2f}",
             f"{100 * (report['texels'] / report['texels_before'] - 1):+.0f} %",
-            f"{report['texel_scale']:.2f}", show(likeness["psnr"], ".1f"),
-            show(likeness["ssim"], ".4f"), f"{report['seconds']['total']:.1f}"]
+            f"{min(atlas['texel_scale'] for atlas in atlases):.2f}",
+            "equal" if psnr is None else f"{psnr:.1f}", f"{likeness['ssim']:.4f}",
+            f"{report['seconds']['total']:.1f}"]
 
 
 def main():
     options = arguments()
     measure.print_origin(options, f"time {options.time}, {options.views} views of {options.size}")
-    rows = []
+    if options.keep:
+        options.keep.mkdir(parents=True, exist_ok=True)
+    rows, failures = [], []
     for number, source in enumerate(options.files, 1):
         measure.progress(f"[{number}/{len(options.files)}] {source}")
         with tempfile.TemporaryDirectory(prefix="wrapatlas_transfer") as folder:
-            rows.append(row(options, source, pathlib.Path(folder)))
+            try:
+                rows.append(row(options, source, pathlib.Path(folder)))
+            except measure.Failure as failure:
+                failures.append(str(failure))
     print(measure.table(["<model", "charts", "images", "million texels", "images after", "of",
                          "million texels", "change", "scale", "PSNR, dB", "SSIM", "s"], rows))
+    for failure in failures:
+        print(f"not moved: {failure}")
 
 
 if __name__ == "__main__":

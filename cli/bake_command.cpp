@@ -13,6 +13,7 @@
 #include "options.h"
 #include "output_paths.h"
 #include "wrapatlas/model.h"
+#include "wrapatlas/model_textures.h"
 
 namespace wrapatlas::cli {
 namespace {
@@ -67,9 +68,6 @@ Status resolve(const CLI::App& app, BakeArguments& a) {
     return std::find(a.maps.begin(), a.maps.end(), map) != a.maps.end();
   };
   const bool color = has(BakedMap::color), occlusion = has(BakedMap::occlusion);
-  if (color && a.color.empty()) {
-    return usage("--map color", "there is no texture to take it from", "give --color-from FILE");
-  }
   const Ignored ignored[] = {
       {"--color-from", !color, "no colour is baked", "add --map color"},
       {"--occlusion-rays", !occlusion, "no occlusion is baked", "add --map occlusion"},
@@ -182,12 +180,19 @@ int run(const CLI::App& app, BakeArguments& a) {
   if (const Status ok = resolve(app, a); !ok) return report_error(ok.error());
   LoadOptions low_options;
   low_options.texcoord_set = a.texcoord;
+  low_options.shading = true;
   const auto low = load_model(a.low, low_options);
   if (!low) return report_error(low.error());
-  const auto high = load_model(a.high);
+  LoadOptions high_options;
+  high_options.shading = true;
+  const auto high = load_model(a.high, high_options);
   if (!high) return report_error(high.error());
   if (const Status ok = check_files(a, *low, *high); !ok) return report_error(ok.error());
-  BakeSource source{&high->mesh, nullptr, high->v_points_down};
+  BakeSource source;
+  source.mesh = &high->mesh;
+  source.v_points_down = high->v_points_down;
+  if (!a.high_hard_edges) source.corner_normals = high->corner_normal;
+  if (!a.hard_edges) a.options.corner_normals = low->corner_normal;
   Texture color;
   if (!a.color.empty()) {
     auto loaded = load_texture(a.color);
@@ -195,6 +200,21 @@ int run(const CLI::App& app, BakeArguments& a) {
     color = std::move(*loaded);
     srgb_to_linear(color);
     source.color = &color;
+  }
+  BaseColors own;
+  const bool bakes_color = std::find(a.maps.begin(), a.maps.end(), BakedMap::color) != a.maps.end();
+  if (bakes_color && a.color.empty()) {
+    auto found = base_colors(*high);
+    if (!found) return report_error(found.error());
+    own = *std::move(found);
+    source.group_colors = own.groups;
+    source.face_group = own.face_group;
+    source.position_color = high->position_color;
+    if (own.groups.empty() && high->position_color.empty()) {
+      return report_error({ErrorKind::input, a.high,
+                           "it has no colours: no textures, and none of its vertices",
+                           "give --color-from FILE"});
+    }
   }
   a.options.v_points_down = low->v_points_down;
   catch_interrupts();
@@ -246,7 +266,7 @@ Command make_bake_command(CLI::App& parser) {
   add_choice(app, "--map", a.map, kBakedMaps,
              "tangent: normals along tangents as MikkTSpace makes them, green up; object: normals "
              "along the model's axes; position; occlusion: how much of the sky is seen; color: of "
-             "--color-from");
+             "the textures that the high model names, or else of its vertices");
   app.add_option("--also", a.also,
                  "Another map in the same run, e.g. occlusion=ao.png; may be repeated")
       ->type_name("KIND=FILE.png");
@@ -260,10 +280,12 @@ Command make_bake_command(CLI::App& parser) {
              "How far from the low model the high one is looked for, along the normal and back, in "
              "units of the files; 0: twice the largest distance between them");
   add_number(app, "--hard-edges", a.hard_edges, {0, 180, "degrees"},
-             "The low model's normals end at edges whose faces differ by more. Default: smooth");
+             "The low model is smooth but for edges whose faces differ by more. Default: the "
+             "normals in its file, or smooth everywhere");
   add_number(app, "--high-hard-edges", a.high_hard_edges, {0, 180, "degrees"},
              "The same of the high model; 0: its faces are flat");
-  app.add_option("--color-from", a.color, "Texture of the high model, PNG or JPEG, sRGB")
+  app.add_option("--color-from", a.color,
+                 "Texture of the high model, PNG or JPEG, sRGB; in place of its own colours")
       ->type_name("FILE");
   add_number(app, "--occlusion-rays", a.options.occlusion_rays, {1, 65536}, "Rays of each sample");
   add_number(app, "--occlusion-distance", a.options.occlusion_distance, {0, 1e30},

@@ -13,6 +13,7 @@
 #include "options.h"
 #include "output_paths.h"
 #include "wrapatlas/model.h"
+#include "wrapatlas/model_textures.h"
 
 namespace wrapatlas::cli {
 namespace {
@@ -37,19 +38,21 @@ struct RenderArguments {
   std::optional<double> level, hard_edges;   ///< degrees
   std::optional<double> azimuth, elevation;  ///< degrees
   int texcoord = 0;
-  bool quiet = false;
+  bool no_textures = false, quiet = false;
   RenderOptions options;
 };
 
 Status resolve(const CLI::App& app, RenderArguments& a) {
   const bool bare = a.texture.empty() && a.normal_map.empty();
   const std::string no_texture = "no texture is drawn", add = "add --texture or --normal-map";
+  const std::string own = "a model's own textures repeat as it says";
   const Ignored ignored[] = {
       {"--space", a.normal_map.empty(), "there is no normal map", "add --normal-map"},
       {"--shade", !a.normal_map.empty(), "the normal map says how it is lit", "leave one out"},
-      {"--filter", bare, no_texture, add},
-      {"--wrap", bare, no_texture, add},
-      {"--level", bare, no_texture, add},
+      {"--filter", bare && a.no_textures, no_texture, add},
+      {"--wrap", bare, own, add},
+      {"--level", bare && a.no_textures, no_texture, add},
+      {"--no-textures", !a.texture.empty(), "--texture takes their place anyway", "leave it out"},
       {"--level", a.filter == Filter::bilinear, "bilinear filtering stays on level 0",
        "leave one out"},
       {"--views", a.azimuth || a.elevation, "--azimuth and --elevation are of a single view",
@@ -170,6 +173,7 @@ int run(const CLI::App& app, RenderArguments& a) {
   if (const Status ok = resolve(app, a); !ok) return report_error(ok.error());
   LoadOptions load_options;
   load_options.texcoord_set = a.texcoord;
+  load_options.shading = true;
   const auto model = load_model(a.input, load_options);
   if (!model) return report_error(model.error());
   std::optional<Model> framed;
@@ -194,8 +198,19 @@ int run(const CLI::App& app, RenderArguments& a) {
   if (const Status ok = read_maps(a.normal_map, true, normals); !ok) {
     return report_error(ok.error());
   }
+  BaseColors own;
+  if (a.texture.empty() && !a.no_textures) {
+    auto found = base_colors(*model);
+    if (!found && !a.quiet) {
+      say("{}: note: drawn without its textures: {}\n", a.input, found.error().message());
+    }
+    if (found) own = *std::move(found);
+    a.options.group_colors = own.groups;
+    a.options.face_group = own.face_group;
+  }
   if (!color.levels.empty()) a.options.color = &color;
   if (!normals.levels.empty()) a.options.normals = &normals;
+  if (!a.hard_edges) a.options.corner_normals = model->corner_normal;
   a.options.v_points_down = model->v_points_down;
   const Rendering rendering = render(model->mesh, a.options);
   std::optional<Likeness> likeness;
@@ -234,14 +249,20 @@ Command make_render_command(CLI::App& parser) {
   app.add_option("-o,--output", a.output, "Where to write the picture")
       ->required()
       ->type_name("FILE.png");
-  app.add_option("--texture", a.texture, "Its colours, PNG or JPEG, sRGB")->type_name("FILE");
+  app.add_option(
+         "--texture", a.texture,
+         "Its colours, PNG or JPEG, sRGB. Default: those that its materials name (glTF, OBJ)")
+      ->type_name("FILE");
+  app.add_flag("--no-textures", a.no_textures, "Light grey, whatever its materials name");
   app.add_option("--normal-map", a.normal_map, "PNG or JPEG, as wrapatlas bake makes it")
       ->type_name("FILE");
   add_choice(app, "--space", a.space, kSpaces, "What the normal map is along");
   add_choice(app, "--shade", a.shade, kLights,
              "Without a normal map: by smooth normals, by those of the faces, or no light");
-  add_number(app, "--hard-edges", a.hard_edges, {0, 180, "degrees"},
-             "Smooth normals end at edges whose faces differ by more. Default: smooth");
+  add_number(
+      app, "--hard-edges", a.hard_edges, {0, 180, "degrees"},
+      "The model is smooth but for edges whose faces differ by more. Default: the normals in "
+      "its file, or smooth everywhere");
   add_choice(app, "--filter", a.filter, kFilters, "How textures are read");
   add_choice(app, "--wrap", a.wrap, kWraps,
              "Axes on which textures repeat; on the others the last texel goes on");

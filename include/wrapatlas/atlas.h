@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "wrapatlas/charts.h"
@@ -55,6 +56,10 @@ AtlasMesh export_cut(const Mesh& mesh, const ChartSet& charts, const Packing& pa
 
 /// The mesh with the UVs that it has; faces without UVs stay without.
 AtlasMesh keep_texcoords(const Mesh& mesh);
+
+/// Gives the named faces of an uncut atlas the UVs that `part` has: an uncut atlas of a mesh that
+/// is these faces alone, in that order.
+void place_part(AtlasMesh& whole, std::span<const std::uint32_t> faces, const AtlasMesh& part);
 
 /// Rounds all UVs to the nearest 32-bit float, which is what files and graphics cards hold. What is
 /// checked after this is what a renderer will see.

@@ -1,6 +1,8 @@
 // Baking: what a detailed mesh looks like, written into the atlas of a simpler one.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <functional>
 #include <span>
 #include <vector>
@@ -8,6 +10,7 @@
 #include "wrapatlas/mesh.h"
 #include "wrapatlas/result.h"
 #include "wrapatlas/texture.h"
+#include "wrapatlas/transfer.h"
 
 namespace wrapatlas {
 
@@ -16,7 +19,7 @@ enum class BakedMap {
   tangent_normals,  ///< n along tangent, bitangent, normal of tangent_frames, as (n + 1) / 2
   positions,        ///< (p - BakeResult::low_corner) / BakeResult::extent
   occlusion,        ///< share of the sky that is seen: 1 is free, 0 is closed in; one channel
-  color,            ///< BakeSource::color, averaged as it is
+  color,            ///< of the BakeSource, averaged as it is
 };
 
 struct BakeOptions {
@@ -28,6 +31,9 @@ struct BakeOptions {
   /// How far from the low mesh the high one is looked for along the normal, in the meshes' units;
   /// 0: twice the largest distance of a corner or a middle of a low face to the high mesh.
   double distance = 0;
+  /// Of the low mesh, as a renderer has them: per corner, unit, or zero where there is none; may be
+  /// empty. Corners without have smooth ones.
+  std::span<const Vec3> corner_normals;
   double hard_angle = -1;         ///< radians: where the low mesh's normals end, see smooth_normals
   double high_hard_angle = -1;    ///< the same of the high mesh
   int occlusion_rays = 64;        ///< of each sample; 1 to 65536
@@ -41,6 +47,12 @@ struct BakeOptions {
 struct BakeSource {
   const Mesh* mesh = nullptr;
   const Texture* color = nullptr;  ///< on the mesh's UVs, repeating
+  /// In place of `color`, if there are any: colours per group of faces, and per face its group.
+  std::span<const GroupColor> group_colors;
+  std::span<const std::uint32_t> face_group;
+  /// Per position of the mesh, linear light: of faces that have no texture of these kinds.
+  std::span<const std::array<float, 3>> position_color;
+  std::span<const Vec3> corner_normals;  ///< as in BakeOptions
   bool v_points_down = false;
 };
 

@@ -1,6 +1,7 @@
 // A model file: read it, look at its mesh, write it back with new UVs.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -25,6 +26,7 @@ struct LoadOptions {
   /// The set may also be the one after the last that the primitives have: the mesh has no UVs then,
   /// and save_model adds the set (glTF; the other formats have one, which may always be missing).
   bool may_add_set = false;
+  bool shading = false;  ///< fill Model::corner_normal and Model::position_color
 };
 
 /// A file in memory: its mesh, and what is needed to write it back unchanged but for the UVs.
@@ -47,6 +49,11 @@ class Model {
 
   Mesh mesh;
   std::vector<std::uint32_t> face_material;  ///< per face a number of its material; empty: all one
+  /// Per corner of the mesh, unit, or zero where there is none; empty: the file has none, or
+  /// LoadOptions::shading is off.
+  std::vector<Vec3> corner_normal;
+  /// Per position of the mesh: red, green, blue in linear light; empty as above.
+  std::vector<std::array<float, 3>> position_color;
   FileFormat format = FileFormat::obj;
   std::vector<std::string> remarks;         ///< what was repaired or left aside, one line each
   std::vector<std::string> material_files;  ///< that an OBJ names (mtllib), as written there
@@ -58,8 +65,8 @@ class Model {
 /// Reads a model. The mesh passes validate_mesh. Errors name file and line (or accessor).
 Result<Model> load_model(const std::filesystem::path& path, const LoadOptions& options = {});
 
-/// Reads a model from bytes, as load_model does; `name` stands in errors. Side files of a glTF
-/// are looked up beside `base`. For fuzzers and callers with their own file systems.
+/// Reads a model from bytes, as load_model does; `name` stands in errors. Side files are looked up
+/// beside `base`. For fuzzers and callers with their own file systems.
 Result<Model> load_model_bytes(std::string bytes, FileFormat format, std::string_view name,
                                const std::filesystem::path& base, const LoadOptions& options = {});
 

@@ -30,10 +30,21 @@ struct NewTexture {
   std::vector<std::size_t> uses;  ///< of ModelTextures::uses
 };
 
+/// The colours that the materials of a model give its faces.
+struct BaseColors {
+  std::vector<MipMaps> maps;              ///< linear light
+  std::vector<GroupColor> groups;         ///< empty: no material has any
+  std::vector<std::uint32_t> face_group;  ///< per face; empty with `groups`
+};
+
 class Model;
 
 /// Decodes all textures that follow the loaded UVs. Errors: usage (a format without textures),
 /// input (a texture that is missing, or neither PNG nor JPEG).
 Result<ModelTextures> load_textures(const Model& model);
+
+/// The textures of base colours alone (baseColorTexture, diffuseTexture, map_Kd). None, without an
+/// error, for formats without textures and for meshes without UVs. Errors: input.
+Result<BaseColors> base_colors(const Model& model);
 
 }  // namespace wrapatlas

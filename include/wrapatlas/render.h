@@ -3,10 +3,12 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "wrapatlas/mesh.h"
 #include "wrapatlas/texture.h"
+#include "wrapatlas/transfer.h"
 
 namespace wrapatlas {
 
@@ -32,8 +34,13 @@ struct RenderOptions {
   const Mesh* framed =
       nullptr;  ///< cameras are set up to fit this mesh, if not the one that is drawn
   Shading shading = Shading::smooth;
-  double hard_angle = -1;          ///< radians: where smooth normals end, see smooth_normals
-  const MipMaps* color = nullptr;  ///< linear light; without it the model is light grey
+  std::span<const Vec3> corner_normals;  ///< the mesh's own, as in BakeOptions
+  double hard_angle = -1;                ///< radians: where smooth normals end, see smooth_normals
+  const MipMaps* color = nullptr;        ///< linear light; without it the model is light grey
+  /// In place of `color`, if there are any: colours per group of faces (without maps: light grey),
+  /// and per face its group.
+  std::span<const GroupColor> group_colors;
+  std::span<const std::uint32_t> face_group;
   const MipMaps* normals = nullptr;
   Wrap wrap = Wrap::uv;        ///< axes on which textures repeat; on the others they are clamped
   bool trilinear = true;       ///< else bilinear, of level 0 alone

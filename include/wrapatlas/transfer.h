@@ -29,6 +29,12 @@ struct TransferSource {
   std::array<double, 6> matrix{1, 0, 0, 0, 1, 0};
 };
 
+/// The colours of one group of faces.
+struct GroupColor {
+  const MipMaps* maps = nullptr;  ///< linear light; null: there are none
+  TransferSource source;          ///< how they are read; its texture does not matter
+};
+
 /// A texture to be made. Texels of groups without a source stay 0, but for dilation.
 struct TransferTarget {
   TextureRole role = TextureRole::data;

@@ -23,4 +23,19 @@ AtlasMesh keep_texcoords(const Mesh& mesh) {
   return atlas;
 }
 
+void place_part(AtlasMesh& whole, std::span<const std::uint32_t> faces, const AtlasMesh& part) {
+  const auto first = static_cast<std::uint32_t>(whole.texcoords.size());
+  whole.texcoords.insert(whole.texcoords.end(), part.texcoords.begin(), part.texcoords.end());
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    std::uint32_t to = whole.face_begin[faces[i]];
+    for (std::uint32_t c = part.face_begin[i]; c < part.face_begin[i + 1]; ++c, ++to) {
+      const std::uint32_t texcoord = part.corner_texcoord[c];
+      whole.corner_texcoord[to] = texcoord == kNone ? kNone : first + texcoord;
+    }
+  }
+  const bool u = wraps_u(whole.wrap) || wraps_u(part.wrap);
+  const bool v = wraps_v(whole.wrap) || wraps_v(part.wrap);
+  whole.wrap = u ? (v ? Wrap::uv : Wrap::u) : (v ? Wrap::v : Wrap::none);
+}
+
 }  // namespace wrapatlas

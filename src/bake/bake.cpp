@@ -37,15 +37,19 @@ Status check_options(const BakeSource& high, std::span<const BakedMap> maps, con
     }
   }
   const bool color = std::find(maps.begin(), maps.end(), BakedMap::color) != maps.end();
-  if (color && (high.color == nullptr || high.mesh->texcoords.empty())) {
-    return usage("color", "the high mesh has no texture, or no UVs for it", "give both");
+  const bool textured = high.color != nullptr || !high.group_colors.empty();
+  if (color && textured && high.mesh->texcoords.empty()) {
+    return usage("color", "the high mesh has no UVs for its texture", "give both");
+  }
+  if (color && !textured && high.position_color.empty()) {
+    return usage("color", "the high mesh has no colours", "give a texture, or some per position");
   }
   return Done{};
 }
 
 int channels_of(BakedMap map, const BakeSource& high) {
   if (map == BakedMap::occlusion) return 1;
-  return map == BakedMap::color ? high.color->channels : 3;
+  return map == BakedMap::color && high.color != nullptr ? high.color->channels : 3;
 }
 
 /// Two numbers from 0 to 1 that differ from texel to texel.
@@ -263,9 +267,11 @@ Result<BakeResult> bake(const Mesh& low, const BakeSource& high, std::span<const
     return Error{ErrorKind::input, "low mesh", "no face has UVs to bake on", "unwrap it first"};
   }
   const auto high_surface =
-      HighSurface::build(high_triangles.mesh, high, options.high_hard_angle, threads);
+      HighSurface::build(high_triangles, high, options.high_hard_angle, threads);
   if (!high_surface) return high_surface.error();
-  const LowSurface low_surface(low_triangles.mesh, options.hard_angle, options.v_points_down);
+  const LowSurface low_surface(
+      low_triangles.mesh, corner_normals(low_triangles, options.corner_normals, options.hard_angle),
+      options.v_points_down);
   result.distance = options.distance > 0
                         ? options.distance
                         : search_distance(low_triangles.mesh, high_surface->scene());

@@ -5,12 +5,13 @@
 
 #include "bake/triangle_point.h"
 #include "mesh/polygon_plane.h"
+#include "texture/placed.h"
 
 namespace wrapatlas {
 
-Result<HighSurface> HighSurface::build(const Mesh& mesh, const BakeSource& source,
+Result<HighSurface> HighSurface::build(const Triangulated& mesh, const BakeSource& source,
                                        double hard_angle, int threads) {
-  auto scene = RayScene::build(mesh, threads);
+  auto scene = RayScene::build(mesh.mesh, threads);
   if (!scene) return scene.error();
   return HighSurface(mesh, source, hard_angle, std::move(*scene));
 }
@@ -45,6 +46,23 @@ Vec3 HighSurface::normal(const HighPoint& point) const {
 }
 
 TextureValue HighSurface::color(const HighPoint& point) const {
+  const std::size_t group =
+      source_->group_colors.empty() ? 0 : source_->face_group[(*face_)[point.triangle]];
+  const bool textured = source_->group_colors.empty()
+                            ? source_->color != nullptr
+                            : source_->group_colors[group].maps != nullptr;
+  if (textured) return texture_color(point);
+  TextureValue sum{0, 0, 0, 1};
+  for (std::size_t i = 0; i < 3 && !source_->position_color.empty(); ++i) {
+    const std::uint32_t at = mesh_->corner_position[3 * std::size_t{point.triangle} + i];
+    for (std::size_t c = 0; c < 3; ++c) {
+      sum[c] += static_cast<float>(point.weights[i]) * source_->position_color[at][c];
+    }
+  }
+  return sum;
+}
+
+TextureValue HighSurface::texture_color(const HighPoint& point) const {
   Vec2 uv;
   for (std::size_t i = 0; i < 3; ++i) {
     const std::uint32_t at = mesh_->corner_texcoord[3 * std::size_t{point.triangle} + i];
@@ -52,7 +70,11 @@ TextureValue HighSurface::color(const HighPoint& point) const {
     uv = uv + point.weights[i] * mesh_->texcoords[at];
   }
   if (!source_->v_points_down) uv.y = 1 - uv.y;
-  return sample_bilinear(*source_->color, uv, Wrap::uv);
+  if (source_->group_colors.empty()) return sample_bilinear(*source_->color, uv, Wrap::uv);
+  const GroupColor& from = source_->group_colors[source_->face_group[(*face_)[point.triangle]]];
+  const Texture& texture = from.maps->levels.front();
+  return as_color(sample_bilinear(texture, place_of(from.source, uv), wrap_of(from.source)),
+                  texture.channels);
 }
 
 double HighSurface::openness(const HighPoint& point, int rays, double farthest,

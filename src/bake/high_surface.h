@@ -2,6 +2,7 @@
 #pragma once
 
 #include "bake/ray_scene.h"
+#include "mesh/corner_normals.h"
 #include "wrapatlas/bake.h"
 #include "wrapatlas/tangents.h"
 
@@ -15,9 +16,9 @@ struct HighPoint {
 
 class HighSurface {
  public:
-  /// Preconditions: triangles alone, at least one; all arguments outlive it.
-  static Result<HighSurface> build(const Mesh& mesh, const BakeSource& source, double hard_angle,
-                                   int threads);
+  /// Preconditions: at least one triangle; all arguments outlive it.
+  static Result<HighSurface> build(const Triangulated& mesh, const BakeSource& source,
+                                   double hard_angle, int threads);
 
   /// The nearest place along the normal, both ways, that faces as the normal does; or else the
   /// nearest point of all. `normal`: a unit vector.
@@ -34,15 +35,19 @@ class HighSurface {
   [[nodiscard]] const RayScene& scene() const { return scene_; }
 
  private:
-  HighSurface(const Mesh& mesh, const BakeSource& source, double hard_angle, RayScene scene)
-      : mesh_(&mesh),
+  HighSurface(const Triangulated& mesh, const BakeSource& source, double hard_angle, RayScene scene)
+      : mesh_(&mesh.mesh),
+        face_(&mesh.face_source),
         source_(&source),
-        normals_(smooth_normals(mesh, hard_angle)),
+        normals_(corner_normals(mesh, source.corner_normals, hard_angle)),
         scene_(std::move(scene)) {}
 
   [[nodiscard]] Vec3 face_normal(std::uint32_t triangle) const;
 
+  [[nodiscard]] TextureValue texture_color(const HighPoint& point) const;
+
   const Mesh* mesh_;
+  const std::vector<std::uint32_t>* face_;  ///< of the source, per triangle
   const BakeSource* source_;
   CornerVectors normals_;
   RayScene scene_;

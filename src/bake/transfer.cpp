@@ -13,28 +13,11 @@
 #include "mesh/polygon_plane.h"
 #include "mesh/triangulate.h"
 #include "texture/bicubic.h"
+#include "texture/placed.h"
 #include "threads/parallel.h"
 
 namespace wrapatlas {
 namespace {
-
-/// A place as a texture that repeats by itself, or a clamped one, finds it.
-double folded(double place, Repeat repeat) {
-  if (repeat != Repeat::mirror) return place;
-  const double within = place - 2 * std::floor(place / 2);
-  return within > 1 ? 2 - within : within;
-}
-
-Wrap wrap_of(const TransferSource& source) {
-  const bool u = source.across == Repeat::repeat, v = source.down == Repeat::repeat;
-  return u ? v ? Wrap::uv : Wrap::u : v ? Wrap::v : Wrap::none;
-}
-
-Vec2 place_of(const TransferSource& source, Vec2 uv) {
-  const auto& m = source.matrix;
-  return {folded(m[0] * uv.x + m[1] * uv.y + m[2], source.across),
-          folded(m[3] * uv.x + m[4] * uv.y + m[5], source.down)};
-}
 
 /// Where u and v (up) grow on a triangle.
 struct Axes {
@@ -147,10 +130,8 @@ class Resampler {
   [[nodiscard]] double level_of(std::uint32_t triangle, const std::array<Vec2, 3>& old,
                                 const TransferSource& source) const {
     const std::array<Vec2, 3> now = samples_.corners(triangle);
-    const auto& m = source.matrix;
-    const double from =
-        std::abs(signed_area2(old[0], old[1], old[2]) * (m[0] * m[4] - m[1] * m[3])) *
-        static_cast<double>(source.texture->texel_count());
+    const double from = std::abs(signed_area2(old[0], old[1], old[2])) * area_scale(source) *
+                        static_cast<double>(source.texture->texel_count());
     const double to = std::abs(signed_area2(now[0], now[1], now[2]));
     return from > to && to > 0 ? 0.5 * std::log2(from / to) : 0;
   }

@@ -38,6 +38,13 @@ class NamedLabels {
     name_ = name;
   }
 
+  /// By their numbers.
+  [[nodiscard]] std::vector<std::string_view> names() const {
+    std::vector<std::string_view> names(numbers_.size());
+    for (const auto& [name, number] : numbers_) names[number] = name;
+    return names;
+  }
+
  private:
   std::string_view name_;  ///< a part of the file's bytes
   std::unordered_map<std::string_view, std::uint32_t> numbers_;

@@ -12,9 +12,10 @@ namespace wrapatlas {
 
 /// Each reader takes the whole file and keeps its bytes if it can be written back. `name` stands
 /// in errors. Meshes are checked for indices and coordinates, so that errors can name the line.
-Result<Model> read_obj(std::string bytes, std::string_view name);
+Result<Model> read_obj(std::string bytes, std::string_view name, const std::filesystem::path& base,
+                       bool shading);
 Result<Model> read_off(const std::string& bytes, std::string_view name);
-Result<Model> read_ply(std::string bytes, std::string_view name);
+Result<Model> read_ply(std::string bytes, std::string_view name, bool shading);
 Result<Model> read_stl(std::string bytes, std::string_view name);
 Result<Model> read_gltf(std::string bytes, bool binary, std::string_view name,
                         const std::filesystem::path& base, const LoadOptions& options);

@@ -6,6 +6,7 @@
 #include "io/face_labels.h"
 #include "io/formats.h"
 #include "io/gltf_primitives.h"
+#include "io/gltf_shading.h"
 
 namespace wrapatlas {
 namespace {
@@ -61,6 +62,9 @@ Result<Model> read_gltf(std::string bytes, bool binary, std::string_view name,
     return contents->file.error("", "it has no triangles", "export a model with faces");
   }
   model.face_material = materials_of(*contents);
+  if (options.shading) {
+    if (Status read = read_gltf_shading(*contents, model); !read) return read.error();
+  }
   remark_on_textures(*contents, model.remarks);
   model.side_files = files_beside(contents->file);
   model.source = make_gltf_source(std::move(contents));

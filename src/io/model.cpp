@@ -35,11 +35,11 @@ Result<Model> read(std::string bytes, FileFormat format, std::string_view name,
                    const std::filesystem::path& base, const LoadOptions& options) {
   switch (format) {
     case FileFormat::obj:
-      return read_obj(std::move(bytes), name);
+      return read_obj(std::move(bytes), name, base, options.shading);
     case FileFormat::off:
       return read_off(bytes, name);
     case FileFormat::ply:
-      return read_ply(std::move(bytes), name);
+      return read_ply(std::move(bytes), name, options.shading);
     case FileFormat::stl:
       return read_stl(std::move(bytes), name);
     case FileFormat::gltf:
@@ -120,12 +120,13 @@ Result<Model> load_model_bytes(std::string bytes, FileFormat format, std::string
 }
 
 Result<ModelTextures> Model::Source::textures() const {
-  return Error{ErrorKind::usage, "", "textures are read from glTF alone", "export it as .glb"};
+  return Error{ErrorKind::usage, "", "textures are read from glTF and OBJ alone",
+               "export it as .glb"};
 }
 
 Status Model::Source::save(const std::filesystem::path& path, const Mesh&, const AtlasMesh&,
                            std::span<const NewTexture>) const {
-  return Error{ErrorKind::usage, path.string(), "textures are written to glTF alone",
+  return Error{ErrorKind::usage, path.string(), "textures are written to glTF and OBJ alone",
                "export the model as .glb"};
 }
 

@@ -2,31 +2,25 @@
 // kept to write the file back.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <utility>
 
 #include "io/face_labels.h"
-#include "io/file.h"
 #include "io/formats.h"
 #include "io/number.h"
 #include "io/obj_lines.h"
-#include "io/obj_write.h"
+#include "io/obj_source.h"
+#include "mesh/polygon_plane.h"
+#include "wrapatlas/texture.h"
 
 namespace wrapatlas {
 namespace {
 
-struct ObjSource final : Model::Source {
-  explicit ObjSource(std::string file) : bytes(std::move(file)) {}
-  Status save(const std::filesystem::path& path, const Mesh& mesh,
-              const AtlasMesh& atlas) const override {
-    return write_file(path,
-                      [&](const PutBytes& put) { return rewrite_obj(bytes, mesh, atlas, put); });
-  }
-  std::string bytes;
-};
-
 class ObjReader {
  public:
-  ObjReader(std::string_view bytes, std::string_view name) : bytes_(bytes), name_(name) {}
+  ObjReader(std::string_view bytes, std::string_view name, bool shading)
+      : bytes_(bytes), name_(name), shading_(shading) {}
 
   Result<Mesh> read() {
     ObjLines lines(bytes_);
@@ -43,6 +37,7 @@ class ObjReader {
           break;
         case ObjKeyword::vn:
           ++normal_count_;
+          if (shading_) read_normal(words);
           break;
         case ObjKeyword::f:
           fine = read_face(words);
@@ -63,8 +58,20 @@ class ObjReader {
     materials_.rename(face_material_, mesh_.face_count(), {});
     return check_forward_references();
   }
-  void move_materials_to(Model& model) {
+  void move_normals_to(Model& model) {
+    if (normals_.empty()) return;
+    for (const std::uint32_t normal : corner_normal_) {
+      model.corner_normal.push_back(normal == kNone ? Vec3{} : unit(normals_[normal]));
+    }
+  }
+  void move_colors_to(Model& model) {
+    if (!colors_.empty()) colors_.resize(model.mesh.positions.size(), {1, 1, 1});
+    model.position_color = std::move(colors_);
+  }
+  void move_materials_to(Model& model, ObjSource& source) {
     model.face_material = std::move(face_material_);
+    for (const std::string_view name : materials_.names()) source.materials.emplace_back(name);
+    source.material_files = material_files_;
     model.material_files = std::move(material_files_);
   }
 
@@ -99,7 +106,33 @@ class ObjReader {
       if (!parse_coordinate(word, *value)) return bad_coordinate(word);
     }
     mesh_.positions.push_back(p);
+    if (shading_) read_color(words);
     return mesh_.positions.size() < kNone || fail("there are too many vertices", "split the file");
+  }
+
+  /// One that is no vector is none.
+  void read_normal(ObjWords& words) {
+    Vec3 n;
+    bool usable = true;
+    for (double* value : {&n.x, &n.y, &n.z}) {
+      usable = usable && parse_coordinate(words.next(), *value);
+    }
+    normals_.push_back(usable ? n : Vec3{});
+  }
+
+  /// Many programs write a vertex's colour, sRGB, after its position. A fourth number alone is a
+  /// weight.
+  void read_color(ObjWords& words) {
+    std::array<double, 3> value{};
+    std::size_t count = 0;
+    for (std::string_view word = words.next(); !word.empty(); word = words.next(), ++count) {
+      if (count >= 3 || !parse_coordinate(word, value[count])) return;
+    }
+    if (count != 3) return;
+    colors_.resize(mesh_.positions.size(), {1, 1, 1});
+    for (std::size_t i = 0; i < 3; ++i) {
+      colors_.back()[i] = srgb_to_linear(static_cast<float>(std::clamp(value[i], 0.0, 1.0)));
+    }
   }
 
   bool read_texcoord(ObjWords& words) {
@@ -151,6 +184,7 @@ class ObjReader {
         open_ended = word;
         ++open_ends;
       }
+      if (shading_) corner_normal_.push_back(corner.vn.empty() ? kNone : normal);
       mesh_.corner_position.push_back(position);
       mesh_.corner_texcoord.push_back(texcoord);
     }
@@ -200,8 +234,12 @@ class ObjReader {
   }
 
   std::string_view bytes_, name_;
+  bool shading_;
+  std::vector<Vec3> normals_;
+  std::vector<std::uint32_t> corner_normal_;  // into normals_, or kNone
   std::vector<std::string> material_files_;
   Mesh mesh_;
+  std::vector<std::array<float, 3>> colors_;
   NamedLabels objects_, materials_;
   std::vector<std::uint32_t> face_material_;
   std::size_t normal_count_ = 0, normals_needed_ = 0, face_of_last_normal_ = 0;
@@ -210,15 +248,21 @@ class ObjReader {
 
 }  // namespace
 
-Result<Model> read_obj(std::string bytes, std::string_view name) {
-  ObjReader reader(bytes, name);
+Result<Model> read_obj(std::string bytes, std::string_view name, const std::filesystem::path& base,
+                       bool shading) {
+  ObjReader reader(bytes, name, shading);
   Result<Mesh> mesh = reader.read();
   if (!mesh) return mesh.error();
   Model model;
-  reader.move_materials_to(model);
+  auto source = std::make_unique<ObjSource>();
+  reader.move_materials_to(model, *source);
   model.mesh = *std::move(mesh);
+  reader.move_normals_to(model);
+  reader.move_colors_to(model);
   model.format = FileFormat::obj;
-  model.source = std::make_unique<ObjSource>(std::move(bytes));
+  source->folder = base;
+  source->bytes = std::move(bytes);
+  model.source = std::move(source);
   return model;
 }
 

@@ -23,8 +23,14 @@ constexpr std::size_t kPiece = std::size_t{1} << 18U;
 
 class ObjWriter {
  public:
-  ObjWriter(std::string_view bytes, const Mesh& mesh, const AtlasMesh& atlas, const PutBytes& put)
-      : bytes_(bytes), mesh_(mesh), atlas_(atlas), put_(put), plan_(bytes, mesh, atlas) {}
+  ObjWriter(std::string_view bytes, const Mesh& mesh, const AtlasMesh& atlas,
+            std::string_view material_file, const PutBytes& put)
+      : bytes_(bytes),
+        mesh_(mesh),
+        atlas_(atlas),
+        material_file_(material_file),
+        put_(put),
+        plan_(bytes, mesh, atlas) {}
 
   Status write() {
     copied_ = bytes_.data();
@@ -33,7 +39,8 @@ class ObjWriter {
       if (out_.size() >= kPiece) put_out();
       if (line_end_.empty()) line_end_ = line.ending;
       ObjWords words(line.text);
-      const ObjKeyword keyword = obj_keyword(words.next());
+      const std::string_view first = words.next();
+      const ObjKeyword keyword = obj_keyword(first);
       switch (keyword) {
         case ObjKeyword::v:
           ++old_v_;
@@ -49,8 +56,10 @@ class ObjWriter {
         case ObjKeyword::f:
           if (!plan_.in_place()) write_face(line);
           break;
-        case ObjKeyword::o:
         case ObjKeyword::other:
+          if (first == "mtllib" && !material_file_.empty()) write_material_file(line.text);
+          break;
+        case ObjKeyword::o:
           break;
         default:
           if (!plan_.in_place()) renumber(words, words_before_indices(keyword));
@@ -81,6 +90,14 @@ class ObjWriter {
     copy_until(old.data());
     out_.append(text);
     copied_ = old.data() + old.size();
+  }
+
+  /// The first such line names the one library there is; the others are left empty.
+  void write_material_file(std::string_view line) {
+    replace(line, "");
+    if (std::exchange(named_material_file_, true)) return;
+    out_ += "mtllib ";
+    out_ += material_file_;
   }
 
   void write_vt(ObjWords words) {
@@ -273,8 +290,10 @@ class ObjWriter {
   std::string_view bytes_;
   const Mesh& mesh_;
   const AtlasMesh& atlas_;
+  std::string_view material_file_;
   const PutBytes& put_;
   ObjPlan plan_;
+  bool named_material_file_ = false;
   Status status_ = Done{};
   std::string out_, number_;      // out_: what is still to be put
   const char* copied_ = nullptr;  // all bytes before this one are put, in out_, or replaced
@@ -288,8 +307,8 @@ class ObjWriter {
 }  // namespace
 
 Status rewrite_obj(std::string_view bytes, const Mesh& mesh, const AtlasMesh& atlas,
-                   const PutBytes& put) {
-  return ObjWriter(bytes, mesh, atlas, put).write();
+                   std::string_view material_file, const PutBytes& put) {
+  return ObjWriter(bytes, mesh, atlas, material_file, put).write();
 }
 
 }  // namespace wrapatlas

@@ -15,8 +15,9 @@ namespace wrapatlas {
 /// new value in its place; if it needs several, the others stand before the first f line that uses
 /// them, and all vt indices become positive and absolute. If faces are cut, their f lines become
 /// several, new v, vn and vt lines stand before them, and all indices are renumbered.
+/// If a `material_file` is named, it takes the place of those that the file names.
 /// Stops at the first error of `put` and returns it.
 Status rewrite_obj(std::string_view bytes, const Mesh& mesh, const AtlasMesh& atlas,
-                   const PutBytes& put);
+                   std::string_view material_file, const PutBytes& put);
 
 }  // namespace wrapatlas

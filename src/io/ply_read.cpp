@@ -2,6 +2,7 @@
 // bytes, which are kept to write the file back.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
@@ -10,6 +11,8 @@
 #include "io/formats.h"
 #include "io/number.h"
 #include "io/ply_write.h"
+#include "mesh/polygon_plane.h"
+#include "wrapatlas/texture.h"
 
 namespace wrapatlas {
 namespace {
@@ -38,7 +41,7 @@ int find_list(const PlyElement& element, std::string_view name) {
   return i >= 0 && element.properties[i].is_list ? i : -1;
 }
 
-PlyRoles find_roles(const PlyHeader& header) {
+PlyRoles find_roles(const PlyHeader& header, bool shading) {
   PlyRoles roles;
   roles.vertex = header.find("vertex");
   roles.face = header.find("face");
@@ -55,6 +58,17 @@ PlyRoles find_roles(const PlyHeader& header) {
       if (roles.u >= 0 && roles.v >= 0) break;
       roles.u = roles.v = -1;
     }
+    const auto find_three = [&](std::array<int*, 3> roles_of,
+                                std::array<std::string_view, 3> names) {
+      bool all = shading;
+      for (std::size_t i = 0; i < 3 && all; ++i) {
+        *roles_of[i] = find_scalar(vertex, names[i], false);
+        all = *roles_of[i] >= 0;
+      }
+      for (std::size_t i = 0; i < 3 && !all; ++i) *roles_of[i] = -1;
+    };
+    find_three({&roles.red, &roles.green, &roles.blue}, {"red", "green", "blue"});
+    find_three({&roles.nx, &roles.ny, &roles.nz}, {"nx", "ny", "nz"});
   }
   if (roles.face >= 0) {
     const PlyElement& face = header.elements[roles.face];
@@ -87,6 +101,40 @@ class PlyReader {
     return std::move(mesh_);
   }
 
+  /// Per corner; what is no vector is none.
+  [[nodiscard]] std::vector<Vec3> normals(const Mesh& mesh) const {
+    std::vector<Vec3> result;
+    if (roles_.nx < 0) return result;
+    for (const std::uint32_t vertex : mesh.corner_position) {
+      const Vec3 n = normals_[vertex];
+      const bool usable = std::abs(n.x) + std::abs(n.y) + std::abs(n.z) < kCoordinateLimit;
+      result.push_back(usable ? unit(n) : Vec3{});
+    }
+    return result;
+  }
+
+  /// Linear light, of the vertices that were read; what is no number is black.
+  [[nodiscard]] std::vector<std::array<float, 3>> colors() const {
+    std::vector<std::array<float, 3>> result;
+    if (roles_.red < 0) return result;
+    const PlyElement& vertex = header_.elements[roles_.vertex];
+    std::array<double, 3> most{1, 1, 1};
+    for (std::size_t c = 0; c < 3; ++c) {
+      const int property = std::array<int, 3>{roles_.red, roles_.green, roles_.blue}[c];
+      const PlyType type = vertex.properties[property].type;
+      if (!ply_is_float(type)) most[c] = ply_max(type);
+    }
+    result.reserve(colors_.size());
+    for (const auto& color : colors_) {
+      auto& linear = result.emplace_back();
+      for (std::size_t c = 0; c < 3; ++c) {
+        const double value = color[c] / most[c];
+        linear[c] = srgb_to_linear(static_cast<float>(value > 0 ? std::min(value, 1.0) : 0));
+      }
+    }
+    return result;
+  }
+
  private:
   bool fail(std::string what) {
     what_ = std::move(what);
@@ -106,6 +154,8 @@ class PlyReader {
     if (vertex.count >= kNone) return fail("there are too many vertices");
     mesh_.positions.resize(vertex.count);
     if (roles_.uvs_on_vertices()) mesh_.texcoords.resize(vertex.count);
+    if (roles_.red >= 0) colors_.resize(vertex.count);
+    if (roles_.nx >= 0) normals_.resize(vertex.count);
     std::string_view raw;
     for (record_ = 0; record_ < vertex.count; ++record_) {
       for (int i = 0; i < static_cast<int>(vertex.properties.size()); ++i) {
@@ -114,7 +164,7 @@ class PlyReader {
           if (!cursor_.skip(vertex.properties[i], raw)) return cut_short();
         } else {
           if (!cursor_.read(vertex.properties[i].type, *target)) return cut_short();
-          if (!(std::abs(*target) < kCoordinateLimit)) {
+          if (!is_shading(i) && !(std::abs(*target) < kCoordinateLimit)) {
             return fail("a coordinate is not a usable number");
           }
         }
@@ -122,7 +172,17 @@ class PlyReader {
     }
     return true;
   }
+  [[nodiscard]] bool is_shading(int property) const {
+    return property == roles_.red || property == roles_.green || property == roles_.blue ||
+           property == roles_.nx || property == roles_.ny || property == roles_.nz;
+  }
   double* target_of(int property) {
+    if (property == roles_.nx) return &normals_[record_].x;
+    if (property == roles_.ny) return &normals_[record_].y;
+    if (property == roles_.nz) return &normals_[record_].z;
+    if (property == roles_.red) return &colors_[record_][0];
+    if (property == roles_.green) return &colors_[record_][1];
+    if (property == roles_.blue) return &colors_[record_][2];
     if (property == roles_.x) return &mesh_.positions[record_].x;
     if (property == roles_.y) return &mesh_.positions[record_].y;
     if (property == roles_.z) return &mesh_.positions[record_].z;
@@ -202,19 +262,21 @@ class PlyReader {
   const PlyElement* element_ = nullptr;
   std::uint64_t record_ = 0;
   Mesh mesh_;
+  std::vector<std::array<double, 3>> colors_;
+  std::vector<Vec3> normals_;
   std::vector<double> uvs_;  // of the face at hand
   std::string what_;
 };
 
 }  // namespace
 
-Result<Model> read_ply(std::string bytes, std::string_view name) {
+Result<Model> read_ply(std::string bytes, std::string_view name, bool shading) {
   auto source = std::make_unique<PlySource>();
   source->bytes = std::move(bytes);
   const Result<PlyHeader> header = read_ply_header(source->bytes, name);
   if (!header) return header.error();
   PlyRoles& roles = source->roles;
-  roles = find_roles(*header);
+  roles = find_roles(*header, shading);
   if (roles.x < 0 || roles.y < 0 || roles.z < 0) {
     return Error{ErrorKind::input, std::string(name), "the header has no vertices with x, y and z",
                  "export the mesh again"};
@@ -224,9 +286,12 @@ Result<Model> read_ply(std::string bytes, std::string_view name) {
                  "the header has no faces with a list vertex_indices",
                  "export the mesh again as polygons"};
   }
-  Result<Mesh> mesh = PlyReader(source->bytes, name, *header, roles).read();
+  PlyReader reader(source->bytes, name, *header, roles);
+  Result<Mesh> mesh = reader.read();
   if (!mesh) return mesh.error();
   Model model;
+  model.position_color = reader.colors();
+  model.corner_normal = reader.normals(*mesh);
   model.format = FileFormat::ply;
   model.mesh = *std::move(mesh);
   if (roles.uvs_on_vertices()) model.mesh.corner_texcoord = model.mesh.corner_position;

@@ -12,7 +12,9 @@ namespace wrapatlas {
 /// Which elements and properties a mesh is made of; -1 where the file has none.
 struct PlyRoles {
   int vertex = -1, x = -1, y = -1, z = -1;
-  int u = -1, v = -1;  ///< UVs per vertex
+  int u = -1, v = -1;                   ///< UVs per vertex
+  int nx = -1, ny = -1, nz = -1;        ///< normals of vertices; all three or none
+  int red = -1, green = -1, blue = -1;  ///< of vertices; all three or none
   int face = -1, indices = -1;
   int texcoord = -1;  ///< UVs per corner, as MeshLab writes them; they win over u and v
 

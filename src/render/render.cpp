@@ -133,7 +133,7 @@ Rendering render(const Mesh& mesh, const RenderOptions& options) {
   rendering.face.assign(rendering.image.texel_count(), kNone);
   rendering.uv.assign(rendering.image.texel_count(), {});
   const Triangulated triangles = triangulated(mesh);
-  const Shader shader(triangles.mesh, options);
+  const Shader shader(triangles, options);
   const Mesh& framed = options.framed != nullptr ? *options.framed : mesh;
   for (int view = 0; view < views; ++view) {
     const int samples = size * kSamplesAcross;

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mesh/corner_normals.h"
 #include "mesh/polygon_plane.h"
+#include "texture/placed.h"
 
 namespace wrapatlas {
 namespace {
@@ -16,29 +18,39 @@ Vec3 direction_of(const TextureValue& value) {
 
 }  // namespace
 
-Shader::Shader(const Mesh& triangles, const RenderOptions& options)
-    : mesh_(triangles), options_(options) {
+Shader::Shader(const Triangulated& triangles, const RenderOptions& options)
+    : mesh_(triangles.mesh), face_(triangles.face_source), options_(options) {
   const bool mapped = options.shading == Shading::tangent_normals;
   if (options.shading == Shading::smooth || mapped) {
-    frames_.normal = smooth_normals(triangles, options.hard_angle);
+    frames_.normal = corner_normals(triangles, options.corner_normals, options.hard_angle);
   }
-  if (mapped) frames_ = tangent_frames(triangles, frames_.normal, options.v_points_down);
+  if (mapped) frames_ = tangent_frames(mesh_, frames_.normal, options.v_points_down);
 }
 
 std::array<float, 3> Shader::color(std::uint32_t triangle, const Shares& shares, double spread,
                                    const Camera& camera) const {
   Vec2 place = uv(triangle, shares);
   if (!options_.v_points_down) place.y = 1 - place.y;
-  std::array<float, 3> albedo{kGrey, kGrey, kGrey};
-  if (options_.color != nullptr) {
-    const TextureValue value = sampled(*options_.color, place, spread);
-    const bool grey = options_.color->levels.front().channels < 3;
-    for (std::size_t i = 0; i < 3; ++i) albedo[i] = value[grey ? 0 : i];
-  }
-  if (options_.shading == Shading::none) return albedo;
+  std::array<float, 3> color = albedo(triangle, place, spread);
+  if (options_.shading == Shading::none) return color;
   const double light = light_on(normal_at(triangle, shares, place, spread), triangle, camera);
-  for (float& value : albedo) value *= static_cast<float>(light);
-  return albedo;
+  for (float& value : color) value *= static_cast<float>(light);
+  return color;
+}
+
+std::array<float, 3> Shader::albedo(std::uint32_t triangle, Vec2 uv, double spread) const {
+  GroupColor from{options_.color, {}};
+  Wrap wrap = options_.wrap;
+  if (!options_.group_colors.empty()) {
+    from = options_.group_colors[options_.face_group[face_[triangle]]];
+    wrap = wrap_of(from.source);
+    uv = place_of(from.source, uv);
+    spread += 0.5 * std::log2(area_scale(from.source));
+  }
+  if (from.maps == nullptr) return {kGrey, kGrey, kGrey};
+  const TextureValue value =
+      as_color(sampled(*from.maps, uv, wrap, spread), from.maps->levels.front().channels);
+  return {value[0], value[1], value[2]};
 }
 
 Vec2 Shader::uv(std::uint32_t triangle, const Shares& shares) const {
@@ -51,12 +63,12 @@ Vec2 Shader::uv(std::uint32_t triangle, const Shares& shares) const {
   return sum;
 }
 
-TextureValue Shader::sampled(const MipMaps& maps, Vec2 uv, double spread) const {
+TextureValue Shader::sampled(const MipMaps& maps, Vec2 uv, Wrap wrap, double spread) const {
   const Texture& texture = maps.levels.front();
-  if (!options_.trilinear) return sample_bilinear(texture, uv, options_.wrap);
+  if (!options_.trilinear) return sample_bilinear(texture, uv, wrap);
   const double size = 0.5 * std::log2(static_cast<double>(texture.texel_count()));
   const double level = options_.level >= 0 ? options_.level : spread + size;
-  return sample_trilinear(maps, uv, level, options_.wrap);
+  return sample_trilinear(maps, uv, level, wrap);
 }
 
 Vec3 Shader::face_normal(std::uint32_t triangle) const {
@@ -75,7 +87,7 @@ Vec3 Shader::interpolated(const CornerVectors& vectors, std::uint32_t triangle,
 Vec3 Shader::normal_at(std::uint32_t triangle, const Shares& shares, Vec2 uv, double spread) const {
   if (options_.shading == Shading::flat) return face_normal(triangle);
   if (options_.shading == Shading::smooth) return interpolated(frames_.normal, triangle, shares);
-  const Vec3 map = direction_of(sampled(*options_.normals, uv, spread));
+  const Vec3 map = direction_of(sampled(*options_.normals, uv, options_.wrap, spread));
   if (options_.shading == Shading::object_normals) return unit(map);
   const Vec3 normal = interpolated(frames_.normal, triangle, shares);
   const Vec3 tangent = interpolated(frames_.tangent, triangle, shares);

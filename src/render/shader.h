@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 
+#include "mesh/triangulate.h"
 #include "render/camera.h"
 #include "wrapatlas/render.h"
 #include "wrapatlas/tangents.h"
@@ -15,8 +16,8 @@ using Shares = std::array<double, 3>;
 
 class Shader {
  public:
-  /// `triangles` has triangles alone; both outlive the shader.
-  Shader(const Mesh& triangles, const RenderOptions& options);
+  /// Both outlive the shader.
+  Shader(const Triangulated& triangles, const RenderOptions& options);
 
   /// Linear light. `spread`: how far the triangle reaches in UV for each pixel on the picture, as a
   /// power of two. Thread safe.
@@ -27,7 +28,8 @@ class Shader {
   [[nodiscard]] Vec2 uv(std::uint32_t triangle, const Shares& shares) const;
 
  private:
-  [[nodiscard]] TextureValue sampled(const MipMaps& maps, Vec2 uv, double spread) const;
+  [[nodiscard]] std::array<float, 3> albedo(std::uint32_t triangle, Vec2 uv, double spread) const;
+  [[nodiscard]] TextureValue sampled(const MipMaps& maps, Vec2 uv, Wrap wrap, double spread) const;
   [[nodiscard]] Vec3 face_normal(std::uint32_t triangle) const;
   [[nodiscard]] Vec3 interpolated(const CornerVectors& vectors, std::uint32_t triangle,
                                   const Shares& shares) const;
@@ -37,6 +39,7 @@ class Shader {
                                 const Camera& camera) const;
 
   const Mesh& mesh_;
+  const std::vector<std::uint32_t>& face_;  ///< of the model, per triangle
   const RenderOptions& options_;
   TangentFrames frames_;
 };

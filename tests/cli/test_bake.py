@@ -73,6 +73,40 @@ class Bake(support.CommandTest):
         self.bake("--map", "color", "--color-from", "t.png", "--resolution", 8, high="same.obj")
         self.assertEqual(read_png(self.path("n.png"))[4], read_png(self.path("t.png"))[4])
 
+    def colours(self, high):
+        """Of the corner texels at (0, 0) and (1, 1)."""
+        self.bake("--map", "color", "--resolution", 64, high=high)
+        *_, rows = read_png(self.path("n.png"))
+        return tuple(rows[-1][:3]), tuple(rows[0][-3:])
+
+    def test_colour_of_vertices(self):
+        self.write("painted.obj", "v 0 0 0 1 0 0\nv 1 0 0 1 0 0\nv 1 1 0 0 0 1\nv 0 1 0 0 0 1\n"
+                                  "f 1 2 3 4\n")
+        (red, none, _), (_, _, blue) = self.colours("painted.obj")
+        self.assertGreater(min(red, blue), 245)
+        self.assertEqual(none, 0)
+
+    def test_colour_of_the_models_own_materials(self):
+        self.bake("--map", "object", "--resolution", 8, output="t.png")
+        self.write("same.obj", "mtllib a.mtl\nusemtl a\n" + SQUARE)
+        self.write("a.mtl", "newmtl a\nmap_Kd t.png\n")
+        self.bake("--map", "color", "--resolution", 8, high="same.obj")
+        self.assertEqual(read_png(self.path("n.png"))[4], read_png(self.path("t.png"))[4])
+
+    def test_normals_of_the_file(self):
+        """A flat square whose file says that it is tilted, as high model and as low one."""
+        tilted = SQUARE.replace("f 1/1 2/2 3/3 4/4", "vn -0.6 0 0.8\nf 1/1/1 2/2/1 3/3/1 4/4/1")
+        self.write("tilted.obj", tilted)
+        self.bake("--map", "object", "--resolution", 8, high="tilted.obj")
+        for value, expected in zip(read_png(self.path("n.png"))[4][4][:3],
+                                   (0.2 * 255, 127.5, 0.9 * 255)):
+            self.assertAlmostEqual(value, expected, delta=1)
+        self.bake("--map", "tangent", "--resolution", 8, low="tilted.obj", high="tilted.obj")
+        for value, expected in zip(read_png(self.path("n.png"))[4][4][:3], (127.5, 127.5, 255)):
+            self.assertAlmostEqual(value, expected, delta=1)
+        self.bake("--map", "object", "--resolution", 8, "--high-hard-edges", 30, high="tilted.obj")
+        self.assertAlmostEqual(read_png(self.path("n.png"))[4][4][2], 255, delta=1)
+
     def test_a_packed_model(self):
         source = self.sample("knot.off")
         self.succeed("unwrap", source, "-o", "low.glb", "--resolution", 256, "--time", 0,
@@ -110,7 +144,6 @@ class Bake(support.CommandTest):
             (("--also", "occlusion"), "not a kind"),
             (("--also", "occlusion=a.jpg"), "PNG"),
             (("--also", "occlusion=n.png"), "same file"),
-            (("--map", "color"), "--color-from"),
             (("--color-from", "junk.png"), "no colour is baked"),
             (("--occlusion-rays", 5), "no occlusion is baked"),
             (("--bits", 9), "8 or 16"),
@@ -129,6 +162,8 @@ class Bake(support.CommandTest):
         self.refuse(3, ("nowhere",), "bake", "low.obj", "high.obj", "-o", "nowhere/n.png")
         self.refuse(3, ("junk.png",), "bake", "low.obj", "high.obj", "-o", "n.png", "--map",
                     "color", "--color-from", "junk.png")
+        self.refuse(3, ("high.obj", "--color-from"), "bake", "low.obj", "high.obj", "-o", "n.png",
+                    "--map", "color")
         self.assertFalse(self.path("n.png").exists())
 
 

@@ -53,6 +53,29 @@ class Render(support.CommandTest):
         self.render(*options, "--wrap", "v", source="shifted.obj")
         self.assertEqual(self.pixel(80, 50), (0, 0, 255))
 
+    def test_the_models_own_textures(self):
+        """Two materials, one of which clamps; the third has no picture."""
+        self.write("own.obj", "mtllib own.mtl\nusemtl a\n" + SHIFTED +
+                   "v 1 -1 0\nv 3 -1 0\nv 3 1 0\nv 1 1 0\nusemtl b\nf 5/1 6/2 7/3 8/4\n"
+                   "v 3 -1 0\nv 5 -1 0\nv 5 1 0\nv 3 1 0\nusemtl c\nf 9/1 10/2 11/3 12/4\n")
+        self.write("own.mtl", "newmtl a\nmap_Kd halves.png\nnewmtl b\nmap_Kd -clamp on halves.png\n"
+                              "newmtl c\nKd 1 1 1\n")
+        self.render("--azimuth", 0, "--size", 300, "--shade", "none", source="own.obj")
+        places = (35, 80, 130, 175, 240)
+        colours = [self.pixel(x, 150) for x in places]
+        red, blue = (255, 0, 0), (0, 0, 255)
+        # u from 0.5 to 1.5: blue and, repeated, red; clamped it stays blue.
+        self.assertEqual(colours[:4], [blue, red, blue, blue])
+        self.assertEqual(len(set(colours[4])), 1)
+        self.render("--azimuth", 0, "--size", 300, "--shade", "none", "--no-textures",
+                    source="own.obj")
+        self.assertEqual(self.pixel(35, 150), colours[4])
+        self.write("own.mtl", "newmtl a\nmap_Kd none.png\n")
+        done = self.call("render", "own.obj", "-o", "view.png", "--size", 40)
+        self.assertEqual(done.returncode, 0)
+        self.assertIn("drawn without its textures", done.stderr)
+        self.assertIn("none.png", done.stderr)
+
     def test_views_side_by_side(self):
         report = self.render("--size", 40, "--views", 3)
         self.assertEqual((report["width"], report["height"]), (120, 40))
@@ -101,9 +124,10 @@ class Render(support.CommandTest):
     def test_refuses(self):
         usage = (
             (("--space", "object"), "no normal map"),
-            (("--filter", "bilinear"), "no texture is drawn"),
-            (("--wrap", "u"), "no texture is drawn"),
-            (("--level", 1), "no texture is drawn"),
+            (("--no-textures", "--filter", "bilinear"), "no texture is drawn"),
+            (("--no-textures", "--level", 1), "no texture is drawn"),
+            (("--no-textures", "--texture", "halves.png"), "takes their place"),
+            (("--wrap", "u"), "repeat as it says"),
             (("--texture", "halves.png", "--filter", "bilinear", "--level", 1), "level 0"),
             (("--normal-map", "up.png", "--shade", "flat"), "normal map"),
             (("--normal-map", "up.png", "--space", "object", "--hard-edges", 9), "object space"),

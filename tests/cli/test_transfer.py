@@ -1,4 +1,4 @@
-"""wrapatlas transfer: a textured glTF gets a new atlas, and looks as before."""
+"""wrapatlas transfer: a textured model gets a new atlas, and looks as before."""
 
 import json
 import struct
@@ -68,8 +68,9 @@ class Transfer(support.CommandTest):
     def test_looks_as_before(self):
         self.write("a.glb", self.maker().glb())
         report = self.transfer("a.glb", "b.glb")
-        self.assertGreaterEqual(report["texel_scale"], 1)
-        self.assertEqual(report["width"] % 4, 0)
+        atlas, = report["atlases"]
+        self.assertGreaterEqual(atlas["texel_scale"], 1)
+        self.assertEqual(atlas["width"] % 4, 0)
         self.assertGreater(self.likeness("a.glb", "b.glb", "uv"), 40)
         gltf, _ = parts(self.path("b.glb"))
         self.assertEqual(len(gltf["images"]), 1)
@@ -81,7 +82,8 @@ class Transfer(support.CommandTest):
         self.write("a.glb", self.maker().glb())
         report = self.transfer("a.glb", "b.glb", "--resolution", "256x128", "--wrap", "none",
                                "--image", "atlas.png")
-        self.assertEqual((report["width"], report["height"], report["wrap"]), (256, 128, "none"))
+        atlas, = report["atlases"]
+        self.assertEqual((atlas["width"], atlas["height"], report["wrap"]), (256, 128, "none"))
         self.assertGreater(self.likeness("a.glb", "b.glb", "none"), 40)
         self.assertTrue(self.path("atlas.png").exists())
         low, high = (self.report("info", "b.glb")["charts"][key] for key in ("uv_min", "uv_max"))
@@ -103,7 +105,7 @@ class Transfer(support.CommandTest):
         self.write("a.glb", maker.glb())
         report = self.transfer("a.glb", "b.glb")
         # Base colour and emission are colours, the others data.
-        self.assertEqual(len(report["textures"]), 2)
+        self.assertEqual(report["images"], 2)
         gltf, _ = parts(self.path("b.glb"))
         material = gltf["materials"][0]
         metal = material["pbrMetallicRoughness"]
@@ -112,9 +114,10 @@ class Transfer(support.CommandTest):
                          material["occlusionTexture"]["index"])
         self.assertEqual(len(gltf["images"]), 2)
 
-    def test_materials_share_the_new_texture(self):
-        maker = self.maker()
-        other = maker.view(png(16, 16, lambda x, y: (200, 10, 10)))
+    def two_materials(self, first=png(64, 64, smooth),
+                      second=png(16, 16, lambda x, y: (200, 10, 10))):
+        maker = self.maker(picture=first)
+        other = maker.view(second)
         maker.json["images"].append({"bufferView": other, "mimeType": "image/png"})
         maker.json["textures"].append({"source": 1})
         maker.json["materials"].append(
@@ -122,8 +125,36 @@ class Transfer(support.CommandTest):
         first = maker.json["meshes"][0]["primitives"][0]
         maker.node(mesh=maker.mesh({**first, "material": 1}), translation=[5, 0, 0])
         self.write("a.glb", maker.glb())
-        report = self.transfer("a.glb", "b.glb")
-        self.assertEqual((report["images_before"], len(report["textures"])), (2, 1))
+
+    def test_materials_keep_atlases_of_their_own(self):
+        self.two_materials()
+        report = self.transfer("a.glb", "b.glb", "--image", "atlas.png")
+        self.assertEqual((report["images_before"], report["images"]), (2, 2))
+        self.assertEqual(len(report["atlases"]), 2)
+        self.assertTrue(all(atlas["texel_scale"] >= 1 for atlas in report["atlases"]))
+        self.assertTrue(self.path("atlas-1.png").exists() and self.path("atlas-2.png").exists())
+        gltf, _ = parts(self.path("b.glb"))
+        indices = [material["pbrMetallicRoughness"]["baseColorTexture"]["index"]
+                   for material in gltf["materials"]]
+        self.assertEqual([gltf["images"][gltf["textures"][index]["source"]]["name"]
+                          for index in indices], ["1-baseColorTexture", "2-baseColorTexture"])
+
+    def test_materials_with_the_same_textures_share_an_atlas(self):
+        self.two_materials()
+        gltf, binary = parts(self.path("a.glb"))
+        gltf["materials"][1]["pbrMetallicRoughness"]["baseColorTexture"]["index"] = 0
+        gltf["textures"].pop()
+        gltf["images"].pop()
+        self.write("b.gltf", json.dumps({**gltf, "buffers": [
+            {**gltf["buffers"][0], "uri": "b.bin"}]}))
+        self.write("b.bin", binary)
+        report = self.transfer("b.gltf", "c.glb")
+        self.assertEqual(report["images"], 1)
+
+    def test_materials_share_the_new_texture(self):
+        self.two_materials()
+        report = self.transfer("a.glb", "b.glb", "--merge")
+        self.assertEqual((report["images_before"], report["images"]), (2, 1))
         gltf, _ = parts(self.path("b.glb"))
         indices = {material["pbrMetallicRoughness"]["baseColorTexture"]["index"]
                    for material in gltf["materials"]}
@@ -145,12 +176,73 @@ class Transfer(support.CommandTest):
         self.path("a b.png").unlink()
         self.refuse(3, ("a b.png",), "transfer", "a.gltf", "-o", "d.glb")
 
+    def obj(self, library="newmtl a b\nKd 1 1 1\nmap_Kd -clamp on pic ture.png\n", picture=None,
+            name="a.mtl"):
+        """Two triangles of a square, of a material with a picture."""
+        self.write("a.obj", f"mtllib {name}\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\n"
+                            "vt 1 1\nvt 0 1\nusemtl a b\nf 1/1 2/2 3/3\nf 1/1 3/3 4/4\n")
+        self.write(name, library)
+        self.path("pic ture.png").write_bytes(picture or png(64, 64, smooth))
+
+    def views(self, before, picture, after, wrap, *options):
+        self.report("render", before, "-o", "before.png", "--texture", picture, "--shade", "none",
+                    "--size", 128, "--quiet", "--wrap", "none")
+        return self.report("render", after, "-o", "after.png", "--texture",
+                           after[:-4] + "-map_Kd.png", "--shade", "none", "--size", 128, "--quiet",
+                           "--wrap", wrap, "--compare", "before.png")["psnr"]
+
+    def test_obj_with_its_materials(self):
+        self.obj()
+        report = self.transfer("a.obj", "b.obj")
+        self.assertEqual((report["images_before"], report["images"]), (1, 1))
+        self.assertIn("mtllib b.mtl\n", self.path("b.obj").read_text())
+        self.assertEqual(self.path("b.mtl").read_text(),
+                         "newmtl a b\nKd 1 1 1\nmap_Kd b-map_Kd.png\n")
+        self.assertGreater(self.views("a.obj", "pic ture.png", "b.obj", "uv"), 40)
+
+    def test_obj_whose_library_is_damaged(self):
+        self.obj(library="newmtl a b\nmap_Kd gone.png\n")
+        self.refuse(3, ("a.mtl", "map_Kd", "gone.png"), "transfer", "a.obj", "-o", "b.obj")
+        self.obj(library="map_Kd pic ture.png\n")
+        self.refuse(3, ("a.obj", "no face has a texture"), "transfer", "a.obj", "-o", "b.obj")
+        self.path("a.mtl").unlink()
+        self.refuse(3, ("a.mtl",), "transfer", "a.obj", "-o", "b.obj")
+        self.obj(library="newmtl a b\nmap_Kd C:\\work\\pic ture.png\n")
+        self.transfer("a.obj", "b.obj")
+
+    def test_obj_does_not_write_over_its_own_files(self):
+        self.obj(name="b.mtl")
+        self.refuse(2, ("b.mtl", "input"), "transfer", "a.obj", "-o", "b.obj")
+        self.assertFalse(self.path("b.obj").exists())
+        self.assertFalse(self.path("b-map_Kd.png").exists())
+
+    def test_new_charts(self):
+        """Two triangles that lie apart in the old atlas are one chart in the new one."""
+        self.obj()
+        text = self.path("a.obj").read_text()
+        self.write("a.obj", text.replace("usemtl", "vt 0.1 0.3\nvt 0.7 0.9\nvt 0.1 0.9\nusemtl")
+                   .replace("f 1/1 3/3 4/4", "f 1/5 3/6 4/7"))
+        kept = self.transfer("a.obj", "b.obj")["atlases"][0]
+        cut = self.transfer("a.obj", "c.obj", "--unwrap")["atlases"][0]
+        self.assertEqual((kept["charts"], cut["charts"]), (2, 1))
+        self.assertGreaterEqual(cut["texel_scale"], 1)
+        self.assertGreater(self.views("a.obj", "pic ture.png", "c.obj", "uv"), 40)
+
+    def test_new_charts_of_a_gltf(self):
+        picture = png(512, 512, lambda x, y: (x // 2, y // 2, 128))
+        self.write("a.glb", self.maker(picture).glb())
+        self.transfer("a.glb", "b.glb", "--unwrap")
+        # Across the old seams, which now lie within charts, colours blend over a texel.
+        self.assertGreater(self.likeness("a.glb", "b.glb", "uv"), 30)
+
     def test_refuses(self):
         self.write("a.glb", self.maker().glb())
         self.write("plain.glb", gltf_maker.plain().glb())
         self.sample("machine.obj")
-        self.refuse(3, ("plain.glb", "no textures"), "transfer", "plain.glb", "-o", "b.glb")
-        self.refuse(2, ("machine.obj", "glTF"), "transfer", "machine.obj", "-o", "b.obj")
+        self.write("machine.mtl", "newmtl grey\nKd 0.5 0.5 0.5\n")
+        self.refuse(3, ("plain.glb", "no face has a texture"), "transfer", "plain.glb", "-o", "b.glb")
+        self.refuse(3, ("machine.obj", "no face has a texture"), "transfer", "machine.obj", "-o",
+                    "b.obj")
         self.refuse(2, ("b.obj", "format"), "transfer", "a.glb", "-o", "b.obj")
         for options in (("--density", 5), ("--pages", 2), ("--udim",), ("--export", "cut"),
                         ("--aspect", "2:1"), ("--bits", 12)):

@@ -26,6 +26,13 @@ Vec3 direction_at(const Texture& map, int x, int y) {
   return {2.0 * double(value[0]) - 1, 2.0 * double(value[1]) - 1, 2.0 * double(value[2]) - 1};
 }
 
+BakeSource source_of(const Mesh& mesh, const Texture* color = nullptr) {
+  BakeSource source;
+  source.mesh = &mesh;
+  source.color = color;
+  return source;
+}
+
 BakeOptions small(int side) {
   BakeOptions options;
   options.width = options.height = side;
@@ -37,7 +44,7 @@ TEST(Bake, ASheetOnItself) {
   const Mesh low = mapped_sheet(1), high = test::sheet(7);
   const BakedMap maps[] = {BakedMap::object_normals, BakedMap::tangent_normals, BakedMap::positions,
                            BakedMap::occlusion};
-  const auto result = bake(low, {&high}, maps, small(32));
+  const auto result = bake(low, source_of(high), maps, small(32));
   ASSERT_TRUE(result);
   EXPECT_EQ(result->texels_used, 32U * 32U);
   EXPECT_EQ(result->texels_nearest, 0U);
@@ -58,7 +65,7 @@ TEST(Bake, ChartsGoOnOverTheBorder) {
   const Mesh low = mapped_sheet(2, {0.4, -0.7}), high = test::sheet(3);
   const BakedMap maps[] = {BakedMap::positions};
   BakeOptions options = small(40);
-  const auto whole = bake(low, {&high}, maps, options);
+  const auto whole = bake(low, source_of(high), maps, options);
   ASSERT_TRUE(whole);
   EXPECT_EQ(whole->texels_used, 1600U);
   for (int y = 0; y < 40; ++y) {
@@ -71,7 +78,7 @@ TEST(Bake, ChartsGoOnOverTheBorder) {
     }
   }
   options.wrap = Wrap::none;
-  const auto cut = bake(low, {&high}, maps, options);
+  const auto cut = bake(low, source_of(high), maps, options);
   ASSERT_TRUE(cut);
   EXPECT_EQ(cut->texels_used, 24U * 12U);
 }
@@ -104,7 +111,7 @@ TEST(Bake, ABallOnACoarseOne) {
                            BakedMap::tangent_normals};
   BakeOptions options = small(96);
   options.samples = 1;
-  const auto result = bake(low, {&high}, maps, options);
+  const auto result = bake(low, source_of(high), maps, options);
   ASSERT_TRUE(result);
   EXPECT_EQ(result->texels_nearest, 0U);
   // Two discs of radius 0.16 * sqrt(2) but for the corners of 16.
@@ -135,7 +142,7 @@ TEST(Bake, TangentSpaceLeadsBackToTheNormal) {
   for (const bool down : {false, true}) {
     BakeOptions options = small(16);
     options.v_points_down = down;
-    const auto result = bake(low, {&high}, maps, options);
+    const auto result = bake(low, source_of(high), maps, options);
     ASSERT_TRUE(result);
     const TangentFrames frames = tangent_frames(low, smooth_normals(low), down);
     const Vec3 t = frames.tangent[0], n = frames.normal[0];
@@ -154,11 +161,11 @@ TEST(Bake, LooksBothWaysAndForTheNearestPoint) {
   for (const double z : {0.2, -0.2}) {
     for (Vec3& p : high.positions) p.z = z;
     options.distance = 0.3;
-    const auto near = bake(low, {&high}, maps, options);
+    const auto near = bake(low, source_of(high), maps, options);
     ASSERT_TRUE(near);
     EXPECT_EQ(near->texels_nearest, 0U);
     options.distance = 0.1;
-    const auto far = bake(low, {&high}, maps, options);
+    const auto far = bake(low, source_of(high), maps, options);
     ASSERT_TRUE(far);
     EXPECT_EQ(far->texels_nearest, 64U);
     for (std::size_t i = 0; i < near->maps[0].values.size(); ++i) {
@@ -183,10 +190,10 @@ TEST(Bake, OcclusionInAPit) {
   const BakedMap maps[] = {BakedMap::occlusion};
   BakeOptions options = small(8);
   options.high_hard_angle = 0.1;
-  const auto deep = bake(low, {&pit}, maps, options);
+  const auto deep = bake(low, source_of(pit), maps, options);
   ASSERT_TRUE(deep);
   options.occlusion_distance = 1e-3;
-  const auto blind = bake(low, {&pit}, maps, options);
+  const auto blind = bake(low, source_of(pit), maps, options);
   ASSERT_TRUE(blind);
   EXPECT_LT(*deep->maps[0].at(4, 4), 0.02F);
   EXPECT_EQ(*blind->maps[0].at(4, 4), 1);
@@ -205,7 +212,7 @@ TEST(Bake, ColourOfTheHighMesh) {
     }
   }
   const BakedMap maps[] = {BakedMap::color};
-  const auto result = bake(low, {&high, &ramp}, maps, small(32));
+  const auto result = bake(low, source_of(high, &ramp), maps, small(32));
   ASSERT_TRUE(result);
   EXPECT_EQ(result->maps[0].channels, 4);
   for (int y = 2; y < 30; ++y) {
@@ -223,9 +230,9 @@ TEST(Bake, ThreadsDoNotMatter) {
   const BakedMap maps[] = {BakedMap::object_normals, BakedMap::occlusion};
   BakeOptions options = small(64);
   options.threads = 1;
-  const auto one = bake(low, {&high}, maps, options);
+  const auto one = bake(low, source_of(high), maps, options);
   options.threads = 4;
-  const auto four = bake(low, {&high}, maps, options);
+  const auto four = bake(low, source_of(high), maps, options);
   ASSERT_TRUE(one && four);
   for (const std::size_t map : {0, 1}) EXPECT_EQ(one->maps[map].values, four->maps[map].values);
   EXPECT_EQ(one->texels_used, four->texels_used);
@@ -236,7 +243,7 @@ TEST(Bake, Refuses) {
   const BakedMap maps[] = {BakedMap::object_normals}, color[] = {BakedMap::color};
   const auto kind = [&](const Mesh& a, const Mesh& b, std::span<const BakedMap> which,
                         const BakeOptions& options) {
-    const auto result = bake(a, {&b}, which, options);
+    const auto result = bake(a, source_of(b), which, options);
     EXPECT_FALSE(result);
     return result.error().kind;
   };

@@ -18,7 +18,7 @@ Model obj(const std::string& text) {
 
 std::string rewritten(const std::string& text, const Mesh& mesh, const AtlasMesh& atlas) {
   std::string out;
-  EXPECT_TRUE(rewrite_obj(text, mesh, atlas, [&](std::string_view piece) -> Status {
+  EXPECT_TRUE(rewrite_obj(text, mesh, atlas, {}, [&](std::string_view piece) -> Status {
     out += piece;
     return Done{};
   }));
@@ -316,7 +316,7 @@ TEST(Obj, LongFilesAreHandedOnInPieces) {
   EXPECT_TRUE(rewritten(text, model.mesh, atlas) == expected);
 
   int calls = 0;
-  const Status failed = rewrite_obj(text, model.mesh, atlas, [&](std::string_view) -> Status {
+  const Status failed = rewrite_obj(text, model.mesh, atlas, {}, [&](std::string_view) -> Status {
     if (++calls < 3) return Done{};
     return Error{ErrorKind::output, "", "full", ""};
   });

@@ -1,0 +1,95 @@
+#!/usr/bin/env python3
+"""Seams of baked normal maps over several meshes: each is unwrapped, packed on the torus with a wide
+padding, its own normals baked, and the error of what is read from the map measured in pictures from
+around it (`wrapatlas_bench seams`): inside charts, along their borders, along the border of the
+atlas, at mip levels 0 to 4; and the same where the texture is clamped, and where nothing is
+dilated. Markdown tables of means in degrees over all pixels of all meshes, and per mesh for level
+0. Needs nothing but Python and the release build. Progress goes to stderr."""
+
+import argparse
+import collections
+import pathlib
+import sys
+import tempfile
+
+import measure
+
+PLACES = {
+    "inside charts": "inside charts",
+    "of these, 2 to 6 texels from the border": "of these, 2 to 6 texels from a border",
+    "up to 1 texel from a chart's border": "at the border of a chart",
+    "up to 1 texel from the border of the atlas": "at the border of the atlas",
+}
+
+
+def arguments():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("files", nargs="+", type=pathlib.Path, help="meshes")
+    measure.add_options(parser, padding="64")
+    parser.add_argument("--time", default="1", help="of guided, seconds; default 1")
+    parser.add_argument("--views", default="4", help="cameras around the model; default 4")
+    parser.add_argument("--bench", type=pathlib.Path, help="default: the release build's",
+                        default=measure.REPOSITORY / "build/release/bench/wrapatlas_bench")
+    return parser.parse_args()
+
+
+def tables_of(text):
+    """{title: {(level, place): (mean, pixels)}}"""
+    tables, title = collections.defaultdict(dict), None
+    for line in text.splitlines():
+        cells = [cell.strip() for cell in line.strip("| ").split("|")]
+        if line and not line.startswith("|"):
+            title = line
+        elif len(cells) == 5 and cells[0].isdigit():
+            level, place, mean, _, pixels = cells
+            tables[title][int(level), place] = (0 if mean == "-" else float(mean), int(pixels))
+    return tables
+
+
+def measured(options, source, folder):
+    flat, packed = folder / "flat.obj", folder / "packed.obj"
+    measure.run([options.wrapatlas, "unwrap", str(source), "-o", str(flat), "--stop-after", "flat",
+                 "--quiet"], f"{source}: unwrap")
+    measure.pack(options, flat, folder, "guided", "uv", str(source), ["--time", options.time])
+    return tables_of(measure.run(
+        [str(options.bench), "seams", str(packed), str(source), "--resolution",
+         options.resolution, "--views", options.views], f"{source}: seams"))
+
+
+def mean_of(entries):
+    pixels = sum(count for _, count in entries)
+    return sum(mean * count for mean, count in entries) / pixels if pixels else None
+
+
+def cell(value):
+    return "-" if value is None else f"{value:.2f}"
+
+
+def main():
+    options = arguments()
+    measure.print_origin(options, f"time {options.time}, {options.views} views")
+    of_file = {}
+    for number, source in enumerate(options.files, 1):
+        measure.progress(f"[{number}/{len(options.files)}] {source}")
+        with tempfile.TemporaryDirectory(prefix="wrapatlas_seams") as folder:
+            of_file[source] = measured(options, source, pathlib.Path(folder))
+    titles = next(iter(of_file.values())).keys()
+    for title in titles:
+        print(f"\n{title}\n")
+        levels = sorted({level for level, _ in next(iter(of_file.values()))[title]})
+        rows = [[level, *(cell(mean_of([tables[title][level, place]
+                                        for tables in of_file.values()])) for place in PLACES)]
+                for level in levels]
+        print(measure.table(["level", *PLACES.values()], rows))
+    first = next(iter(titles))
+    print(f"\nLevel 0, mesh by mesh: {first}\n")
+    rows = [[source.name, *(cell(tables[first][0, place][0]) for place in PLACES),
+             *(cell(tables[title][0, place][0]) for title, place in zip(
+                 list(titles)[1:], list(PLACES)[:1:-1]))]
+            for source, tables in of_file.items()]
+    print(measure.table(["<mesh", *PLACES.values(), "clamped, at the border of the atlas",
+                         "not dilated, at the border of a chart"], rows))
+
+
+if __name__ == "__main__":
+    sys.exit(measure.run_script(main))

@@ -1,0 +1,167 @@
+#include "transfer_atlas.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "common.h"
+#include "wrapatlas/atlas.h"
+#include "wrapatlas/model.h"
+#include "wrapatlas/validate.h"
+
+namespace wrapatlas::cli {
+namespace {
+
+/// The set's faces in new charts, each about as large as its old texels.
+Result<Mesh> unwrapped(const TransferArguments& a, const Mesh& texels, bool v_points_down,
+                       const std::string& label) {
+  ProgressLine line(!a.pack.quiet);
+  UnwrapOptions options;
+  options.threads = a.pack.options.threads;
+  options.progress = [&](const UnwrapProgress& progress) {
+    line.show(fmt::format("{}unwrapping {:3.0f} %", label, 100 * progress.fraction));
+    return !interrupted();
+  };
+  auto made = unwrap(texels, options);
+  if (!made) return made.error();
+  Mesh& mesh = made->mesh;
+  std::vector<double> before(made->charts.size()), after(made->charts.size());
+  const auto area = [](const Mesh& of, std::uint32_t face) {
+    double twice = 0;
+    const std::uint32_t first = of.face_begin[face];
+    for (std::uint32_t c = first + 1; c + 1 < of.face_begin[face + 1]; ++c) {
+      twice +=
+          signed_area2(of.texcoords[of.corner_texcoord[first]], of.texcoords[of.corner_texcoord[c]],
+                       of.texcoords[of.corner_texcoord[c + 1]]);
+    }
+    return 0.5 * std::abs(twice);
+  };
+  double all_before = 0, all_after = 0;
+  for (std::uint32_t face = 0; face < mesh.face_count(); ++face) {
+    const std::uint32_t chart = made->face_chart[face];
+    before[chart] += area(texels, face);
+    after[chart] += area(mesh, face);
+    all_before += area(texels, face);
+    all_after += area(mesh, face);
+  }
+  const double usual = all_after > 0 ? std::sqrt(all_before / all_after) : 1;
+  std::vector<Vec2> scaled(mesh.corner_count());
+  for (std::uint32_t face = 0; face < mesh.face_count(); ++face) {
+    const std::uint32_t chart = made->face_chart[face];
+    const bool known = before[chart] > 0 && after[chart] > 0;
+    const double scale = known ? std::sqrt(before[chart] / after[chart]) : usual;
+    for (std::uint32_t c = mesh.face_begin[face]; c < mesh.face_begin[face + 1]; ++c) {
+      scaled[c] = scale * mesh.texcoords[mesh.corner_texcoord[c]];
+      if (v_points_down) scaled[c].y = -scaled[c].y;
+      mesh.corner_texcoord[c] = c;
+    }
+  }
+  mesh.texcoords = std::move(scaled);
+  return std::move(mesh);
+}
+
+/// Packs at the size asked for, or at the smallest of whole fours at which no texel is lost.
+Result<Packing> pack_texels(const TransferArguments& a, const ChartSet& charts,
+                            const std::string& label) {
+  PackOptions options = a.pack.options;
+  ProgressLine line(!a.pack.quiet);
+  options.progress = [&](const Progress& progress) {
+    line.show(fmt::format("{}packing {:3.0f} %", label, 100 * progress.fraction));
+    return !interrupted();
+  };
+  if (a.size_given) return pack(charts.charts, options);
+  const double asked = options.time;
+  options.time = 0;
+  double side = std::sqrt(charts.total_area() / 0.75), least = 1;
+  constexpr double kMost = 16384;
+  constexpr int kRounds = 4;
+  for (int round = 1;; ++round) {
+    side = 4 * std::ceil(std::max(side, least) / 4);
+    if (side > kMost) {
+      return Error{ErrorKind::no_packing, "",
+                   fmt::format("to lose no texel the atlas would have {:.0f} a side", side),
+                   "give --resolution; where textures repeat often, they had better stay"};
+    }
+    options.width = options.height = static_cast<int>(side);
+    const bool last = round == kRounds;
+    options.time = last ? asked : 0;
+    auto packing = pack(charts.charts, options);
+    if (!packing && packing.error().kind == ErrorKind::no_packing) {
+      least = 2 * side;  // the padding alone needs more
+      round = 0;
+      continue;
+    }
+    if (!packing || packing->interrupted || last) return packing;
+    side *= 1.002 / packing->scale;
+  }
+}
+
+Status check_result(const PackArguments& a, const Mesh& before, const AtlasMesh& atlas,
+                    const Packing& packing, bool v_points_down) {
+  CheckOptions options;
+  options.width = packing.width;
+  options.height = packing.height;
+  options.wrap = packing.wrap;
+  options.padding = a.options.padding;
+  options.margin = a.margin_in_force();
+  options.stacked_ok = true;
+  options.v_points_down = v_points_down;
+  options.threads = a.options.threads;
+  const auto report = check_atlas(apply_atlas(before, atlas), &before, options);
+  if (!report) return report.error();
+  if (report->ok()) return Done{};
+  return Error{ErrorKind::check, "", "the finished atlas breaks a promise",
+               "nothing was written; please report this as a bug"};
+}
+
+}  // namespace
+
+Result<NewAtlas> pack_texture_set(const TransferArguments& a, const TextureSet& set,
+                                  bool v_points_down, const std::string& label) {
+  Mesh mesh = mesh_in_texels(set);
+  if (a.unwrap) {
+    auto cut = unwrapped(a, mesh, v_points_down, label);
+    if (!cut) return cut.error();
+    mesh = *std::move(cut);
+  }
+  // New charts may lie on each other, each in its own scale; old ones do so on purpose.
+  auto charts = build_charts(mesh, a.unwrap ? Stacked::separate : Stacked::keep);
+  if (!charts) return charts.error();
+  auto packing = pack_texels(a, *charts, label);
+  if (!packing) return packing.error();
+  if (packing->interrupted) {
+    return Error{ErrorKind::interrupted, "", "stopped before the textures were moved",
+                 "nothing was written"};
+  }
+  AtlasMesh atlas = export_continuous(mesh, *charts, *packing, v_points_down);
+  round_texcoords_to_float(atlas);
+  if (const Status ok = check_result(a.pack, mesh, atlas, *packing, v_points_down); !ok) {
+    return ok.error();
+  }
+  return NewAtlas{*std::move(charts), *std::move(packing), std::move(atlas), {}};
+}
+
+Status fill_textures(const TransferArguments& a, const TextureSet& set, bool v_points_down,
+                     bool keep_tangents, const std::string& label, NewAtlas& atlas) {
+  ProgressLine line(!a.pack.quiet);
+  TransferOptions options;
+  options.width = atlas.packing.width;
+  options.height = atlas.packing.height;
+  options.wrap = atlas.packing.wrap;
+  options.v_points_down = v_points_down;
+  options.keep_tangents = keep_tangents;
+  options.threads = a.pack.options.threads;
+  options.progress = [&](double share) {
+    line.show(fmt::format("{}moving textures {:3.0f} %", label, 100 * share));
+    return !interrupted();
+  };
+  std::vector<TransferTarget> targets;
+  for (const SetTexture& texture : set.textures) targets.push_back(texture.target);
+  auto made = transfer(set.mesh, apply_atlas(set.mesh, atlas.atlas), set.group, targets, options);
+  if (!made) return made.error();
+  atlas.textures = *std::move(made);
+  return Done{};
+}
+
+}  // namespace wrapatlas::cli

@@ -1,0 +1,178 @@
+#include "wrapatlas/texture_sets.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "mesh/select_faces.h"
+
+namespace wrapatlas {
+namespace {
+
+/// What of a material tells whether another one's faces may share its textures.
+std::string read_from(const TextureUse& use) {
+  return fmt::format("{} {} {} {} {} {}", static_cast<int>(use.role), use.image,
+                     static_cast<int>(use.source.across), static_cast<int>(use.source.down),
+                     fmt::join(use.source.matrix, ","), use.place);
+}
+
+/// Materials of one look: those whose uses are the same.
+struct Look {
+  std::vector<std::size_t> uses;  ///< of all its materials, those of the first one first
+  std::size_t uses_of_one = 0;
+};
+
+class Looks {
+ public:
+  explicit Looks(const ModelTextures& textures) : textures_(textures) {
+    std::map<std::uint32_t, std::vector<std::size_t>> of_material;
+    for (std::size_t i = 0; i < textures.uses.size(); ++i) {
+      of_material[textures.uses[i].material].push_back(i);
+    }
+    std::map<std::string, std::uint32_t> known;
+    for (const auto& [material, uses] : of_material) {
+      std::vector<std::string> parts;
+      for (const std::size_t use : uses) parts.push_back(read_from(textures.uses[use]));
+      std::sort(parts.begin(), parts.end());
+      const auto next = static_cast<std::uint32_t>(looks_.size());
+      const auto [found, is_new] =
+          known.try_emplace(fmt::format("{}", fmt::join(parts, ";")), next);
+      if (is_new) looks_.push_back({{}, uses.size()});
+      std::vector<std::size_t>& all = looks_[found->second].uses;
+      all.insert(all.end(), uses.begin(), uses.end());
+      of_material_[material] = found->second;
+    }
+  }
+
+  /// kNone: it has no textures.
+  [[nodiscard]] std::uint32_t of_material(std::uint32_t material) const {
+    const auto found = of_material_.find(material);
+    return found == of_material_.end() ? kNone : found->second;
+  }
+  [[nodiscard]] const Look& operator[](std::uint32_t look) const { return looks_[look]; }
+  [[nodiscard]] std::size_t size() const { return looks_.size(); }
+
+  /// Texels per unit of u and of v, of the finest of its textures.
+  [[nodiscard]] Vec2 texels(std::uint32_t look) const {
+    Vec2 most{1, 1};
+    for (const std::size_t i : looks_[look].uses) {
+      const TextureUse& use = textures_.uses[i];
+      const auto& m = use.source.matrix;
+      const Texture& image = textures_.images[use.image];
+      most.x = std::max(most.x, std::hypot(m[0] * image.width, m[3] * image.height));
+      most.y = std::max(most.y, std::hypot(m[1] * image.width, m[4] * image.height));
+    }
+    return most;
+  }
+
+ private:
+  const ModelTextures& textures_;
+  std::vector<Look> looks_;
+  std::map<std::uint32_t, std::uint32_t> of_material_;
+};
+
+/// The textures that groups of these looks need together.
+std::vector<SetTexture> textures_for(std::span<const std::uint32_t> group_look, const Looks& looks,
+                                     const ModelTextures& textures) {
+  struct At {
+    std::size_t group, use;
+  };
+  std::map<std::string, std::vector<At>> places;        // one use for each group
+  std::map<std::string, std::vector<std::size_t>> all;  // those of all materials
+  for (std::size_t group = 0; group < group_look.size(); ++group) {
+    const Look& look = looks[group_look[group]];
+    for (std::size_t i = 0; i < look.uses.size(); ++i) {
+      const std::string& place = textures.uses[look.uses[i]].place;
+      if (i < look.uses_of_one) places[place].push_back({group, look.uses[i]});
+      all[place].push_back(look.uses[i]);
+    }
+  }
+  std::map<std::string, std::size_t> known;
+  std::vector<SetTexture> result;
+  for (const auto& [place, at] : places) {
+    const TextureRole role = textures.uses[at.front().use].role;
+    std::string key = std::to_string(static_cast<int>(role));
+    for (const At& one : at) {
+      const TextureUse& use = textures.uses[one.use];
+      key += fmt::format(" {}:{}:{}", one.group, use.image, fmt::join(use.source.matrix, ","));
+    }
+    const auto [found, is_new] = known.try_emplace(key, result.size());
+    if (is_new) {
+      TransferTarget target{role, 1, std::vector<TransferSource>(group_look.size())};
+      for (const At& one : at) {
+        TransferSource& source = target.of_group[one.group];
+        source = textures.uses[one.use].source;
+        source.texture = &textures.images[textures.uses[one.use].image];
+        target.channels = std::max(target.channels, source.texture->channels);
+      }
+      result.push_back({std::move(target), place.substr(place.rfind('/') + 1), {}});
+    }
+    std::vector<std::size_t>& uses = result[found->second].uses;
+    uses.insert(uses.end(), all[place].begin(), all[place].end());
+  }
+  return result;
+}
+
+bool has_uvs(const Mesh& mesh, std::uint32_t face) {
+  for (std::uint32_t c = mesh.face_begin[face]; c < mesh.face_begin[face + 1]; ++c) {
+    if (mesh.corner_texcoord[c] == kNone) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+std::vector<TextureSet> texture_sets(const Mesh& mesh, std::span<const std::uint32_t> face_material,
+                                     const ModelTextures& textures, bool merged) {
+  const Looks looks(textures);
+  std::vector<TextureSet> sets;
+  std::vector<std::uint32_t> set_of_look(looks.size(), kNone), group_of_look(looks.size(), kNone);
+  std::vector<std::vector<std::uint32_t>> looks_of_set;
+  for (std::uint32_t face = 0; face < mesh.face_count(); ++face) {
+    const std::uint32_t material = face_material.empty() ? 0 : face_material[face];
+    const std::uint32_t look = looks.of_material(material);
+    if (look == kNone || !has_uvs(mesh, face)) continue;
+    if (set_of_look[look] == kNone) {
+      if (sets.empty() || !merged) {
+        sets.emplace_back();
+        looks_of_set.emplace_back();
+      }
+      set_of_look[look] = static_cast<std::uint32_t>(sets.size() - 1);
+      group_of_look[look] = static_cast<std::uint32_t>(looks_of_set.back().size());
+      looks_of_set.back().push_back(look);
+      sets.back().texels.push_back(looks.texels(look));
+    }
+    TextureSet& set = sets[set_of_look[look]];
+    set.faces.push_back(face);
+    set.group.push_back(group_of_look[look]);
+  }
+  for (std::size_t i = 0; i < sets.size(); ++i) {
+    sets[i].mesh = select_faces(mesh, sets[i].faces);
+    sets[i].textures = textures_for(looks_of_set[i], looks, textures);
+  }
+  return sets;
+}
+
+Mesh mesh_in_texels(const TextureSet& set) {
+  Mesh mesh = set.mesh;
+  double farthest = 1;
+  for (const Vec2 uv : mesh.texcoords) {
+    farthest = std::max({farthest, std::abs(uv.x), std::abs(uv.y)});
+  }
+  mesh.texcoords.clear();
+  for (std::uint32_t face = 0; face < mesh.face_count(); ++face) {
+    const std::uint32_t group = set.group[face];
+    const Vec2 size = set.texels[group];
+    const double apart = 3 * farthest * group;
+    for (std::uint32_t c = mesh.face_begin[face]; c < mesh.face_begin[face + 1]; ++c) {
+      const Vec2 uv = set.mesh.texcoords[mesh.corner_texcoord[c]];
+      mesh.corner_texcoord[c] = static_cast<std::uint32_t>(mesh.texcoords.size());
+      mesh.texcoords.push_back({size.x * (uv.x + apart), size.y * uv.y});
+    }
+  }
+  return mesh;
+}
+
+}  // namespace wrapatlas

@@ -1,0 +1,12 @@
+// Normals and colours of a glTF's vertices.
+#pragma once
+
+#include "io/gltf_primitives.h"
+
+namespace wrapatlas {
+
+/// Fills Model::corner_normal (NORMAL) and Model::position_color (COLOR_0; white where a primitive
+/// has none) of a model whose mesh is there. Errors: input.
+Status read_gltf_shading(const GltfContents& contents, Model& model);
+
+}  // namespace wrapatlas

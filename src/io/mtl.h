@@ -1,0 +1,32 @@
+// Material libraries of OBJ files: which pictures they name, and others in their place.
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "wrapatlas/transfer.h"
+
+namespace wrapatlas {
+
+/// A statement that names a picture: "map_Kd -s 2 2 1 wood.png".
+struct MtlMap {
+  std::string_view keyword;   ///< all views are parts of the file's bytes: "map_Kd"
+  std::string_view options;   ///< from the keyword's end to the picture's name
+  std::string_view picture;   ///< the file's name, as it is written
+  std::string_view material;  ///< of the newmtl before it
+  TransferSource source;      ///< as the options say it is read; its texture is null
+};
+
+/// In the order of the file. Pictures that are no matter of UVs (refl) are left out, as is what
+/// stands before the first newmtl.
+std::vector<MtlMap> read_mtl_maps(std::string_view bytes);
+
+/// The same file with other pictures' names: those of `pictures`, by the number of their map. The
+/// options that move, scale or clamp a picture go, the others stay.
+std::string replace_mtl_pictures(std::string_view bytes,
+                                 const std::map<std::size_t, std::string>& pictures);
+
+}  // namespace wrapatlas

@@ -1,0 +1,198 @@
+#include "io/obj_source.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <map>
+#include <optional>
+
+#include "io/file.h"
+#include "io/mtl.h"
+#include "io/obj_lines.h"
+#include "io/obj_write.h"
+
+namespace wrapatlas {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Library {
+  fs::path path;
+  std::string bytes;
+};
+
+bool is_file(const fs::path& path) {
+  std::error_code none;
+  return fs::is_regular_file(path, none);
+}
+
+std::string with_slashes(std::string name) {
+  std::replace(name.begin(), name.end(), '\\', '/');
+  return name;
+}
+
+/// Files named with another system's slashes, or by a folder of another machine, are looked for
+/// beside the file that names them as well.
+fs::path find_beside(const fs::path& folder, const std::string& name) {
+  const fs::path slashed = with_slashes(name);
+  for (const fs::path& path : {folder / name, folder / slashed, folder / slashed.filename()}) {
+    if (is_file(path)) return path;
+  }
+  return folder / slashed;
+}
+
+/// A line may name several, and one name may hold blanks.
+std::vector<fs::path> library_paths(const ObjSource& source) {
+  std::vector<fs::path> paths;
+  for (const std::string& line : source.material_files) {
+    const fs::path whole = find_beside(source.folder, line);
+    if (is_file(whole) || line.find(' ') == std::string::npos) {
+      paths.push_back(whole);
+      continue;
+    }
+    ObjWords words(line);
+    for (std::string_view word = words.next(); !word.empty(); word = words.next()) {
+      paths.push_back(find_beside(source.folder, std::string(word)));
+    }
+  }
+  return paths;
+}
+
+Result<std::vector<Library>> read_libraries(const ObjSource& source) {
+  std::vector<Library> libraries;
+  for (const fs::path& path : library_paths(source)) {
+    auto bytes = read_file(path);
+    if (!bytes) return bytes.error();
+    libraries.push_back({path, *std::move(bytes)});
+  }
+  return libraries;
+}
+
+/// A map of a material that faces may have: the same list whenever it is asked for.
+struct Use {
+  std::size_t library = 0, map = 0;
+  std::uint32_t material = 0;
+  MtlMap what;
+};
+
+std::vector<Use> uses_of(const std::vector<Library>& libraries,
+                         const std::vector<std::string>& materials) {
+  std::vector<Use> uses;
+  for (std::size_t library = 0; library < libraries.size(); ++library) {
+    const std::vector<MtlMap> maps = read_mtl_maps(libraries[library].bytes);
+    for (std::size_t map = 0; map < maps.size(); ++map) {
+      const auto found = std::find(materials.begin(), materials.end(), maps[map].material);
+      if (found == materials.end()) continue;
+      const auto material = static_cast<std::uint32_t>(found - materials.begin());
+      uses.push_back({library, map, material, maps[map]});
+    }
+  }
+  return uses;
+}
+
+/// Are most texels unit vectors that point up? What is called a bump map often is a normal map.
+bool holds_normals(const Texture& texture) {
+  if (texture.channels < 3) return false;
+  std::size_t unit = 0;
+  for (std::size_t i = 0; i < texture.texel_count(); ++i) {
+    const float* value = texture.values.data() + i * static_cast<std::size_t>(texture.channels);
+    const float x = 2 * value[0] - 1, y = 2 * value[1] - 1, z = 2 * value[2] - 1;
+    if (z > 0 && std::abs(std::sqrt(x * x + y * y + z * z) - 1) < 0.1F) ++unit;
+  }
+  return 10 * unit >= 9 * texture.texel_count();
+}
+
+TextureRole role_of(std::string_view keyword, const Texture& texture) {
+  std::string key(keyword);
+  for (char& c : key) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  if (key == "norm" || key == "map_kn") return TextureRole::normals;
+  for (const char* color : {"map_kd", "map_ka", "map_ks", "map_ke"}) {
+    if (key == color) return TextureRole::color;
+  }
+  const bool bump = key == "bump" || key == "map_bump";
+  return bump && holds_normals(texture) ? TextureRole::normals : TextureRole::data;
+}
+
+}  // namespace
+
+Status ObjSource::save(const fs::path& path, const Mesh& mesh, const AtlasMesh& atlas) const {
+  return write_file(path,
+                    [&](const PutBytes& put) { return rewrite_obj(bytes, mesh, atlas, {}, put); });
+}
+
+Result<ModelTextures> ObjSource::textures() const {
+  const auto libraries = read_libraries(*this);
+  if (!libraries) return libraries.error();
+  ModelTextures result;
+  std::map<fs::path, std::size_t> known;
+  for (const Use& use : uses_of(*libraries, materials)) {
+    const fs::path path =
+        find_beside((*libraries)[use.library].path.parent_path(), std::string(use.what.picture));
+    const auto [found, is_new] = known.try_emplace(path, result.images.size());
+    if (is_new) {
+      auto texture = load_texture(path);
+      if (!texture) {
+        Error error = texture.error();
+        error.where =
+            fmt::format("{}: {} of material {}: {}", (*libraries)[use.library].path.string(),
+                        use.what.keyword, use.what.material, error.where);
+        return error;
+      }
+      result.images.push_back(*std::move(texture));
+    }
+    result.uses.push_back({use.material, std::string(use.what.keyword),
+                           role_of(use.what.keyword, result.images[found->second]), found->second,
+                           use.what.source});
+  }
+  return result;
+}
+
+Status ObjSource::save(const fs::path& path, const Mesh& mesh, const AtlasMesh& atlas,
+                       std::span<const NewTexture> textures) const {
+  const auto libraries = read_libraries(*this);
+  if (!libraries) return libraries.error();
+  const std::vector<Use> uses = uses_of(*libraries, materials);
+  const auto beside = [&](const std::string& ending) {
+    return fs::path(path).replace_filename(path.stem().string() + ending);
+  };
+  std::vector<std::map<std::size_t, std::string>> pictures(libraries->size());
+  const auto refuse_input = [&](const fs::path& output) -> Status {
+    bool is_input = false;
+    for (const Library& library : *libraries) {
+      is_input = is_input || same_file(library.path, output);
+    }
+    for (const Use& use : uses) {
+      is_input = is_input || same_file(find_beside((*libraries)[use.library].path.parent_path(),
+                                                   std::string(use.what.picture)),
+                                       output);
+    }
+    if (!is_input) return Done{};
+    return Error{ErrorKind::usage, output.string(),
+                 "it would be written over, and is a file of "
+                 "the input",
+                 "give the output another name"};
+  };
+  for (const NewTexture& texture : textures) {
+    const fs::path picture = beside(fmt::format("-{}.png", texture.name));
+    if (Status ok = refuse_input(picture); !ok) return ok;
+    if (Status ok = write_file(picture, texture.png); !ok) return ok;
+    for (const std::size_t use : texture.uses) {
+      pictures[uses[use].library][uses[use].map] = picture.filename().string();
+    }
+  }
+  const fs::path library = beside(".mtl");
+  if (Status ok = refuse_input(library); !ok) return ok;
+  std::string all;
+  for (std::size_t i = 0; i < libraries->size(); ++i) {
+    all += replace_mtl_pictures((*libraries)[i].bytes, pictures[i]);
+    if (!all.empty() && all.back() != '\n') all += '\n';
+  }
+  if (Status ok = write_file(library, all); !ok) return ok;
+  return write_file(path, [&](const PutBytes& put) {
+    return rewrite_obj(bytes, mesh, atlas, library.filename().string(), put);
+  });
+}
+
+}  // namespace wrapatlas

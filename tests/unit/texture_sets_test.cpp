@@ -1,0 +1,109 @@
+#include "wrapatlas/texture_sets.h"
+
+#include <gtest/gtest.h>
+
+#include "mesh/select_faces.h"
+#include "wrapatlas/atlas.h"
+
+namespace wrapatlas {
+namespace {
+
+/// Four triangles beside each other, the last without UVs.
+Mesh four_triangles() {
+  Mesh mesh;
+  for (std::uint32_t i = 0; i < 4; ++i) {
+    for (const Vec2 at : {Vec2{0, 0}, Vec2{1, 0}, Vec2{0, 1}}) {
+      mesh.corner_position.push_back(static_cast<std::uint32_t>(mesh.positions.size()));
+      mesh.positions.push_back({at.x + 2 * i, at.y, 0});
+      mesh.corner_texcoord.push_back(i == 3 ? kNone
+                                            : static_cast<std::uint32_t>(mesh.texcoords.size()));
+      if (i != 3) mesh.texcoords.push_back({0.5 * at.x, 0.5 * at.y});
+    }
+    mesh.face_begin.push_back(static_cast<std::uint32_t>(mesh.corner_position.size()));
+  }
+  return mesh;
+}
+
+TextureUse use(std::uint32_t material, const std::string& place, std::size_t image) {
+  TextureUse result;
+  result.material = material;
+  result.place = place;
+  result.role = TextureRole::color;
+  result.image = image;
+  return result;
+}
+
+/// Materials 0 and 2 look alike; 1 has a picture of its own.
+ModelTextures three_materials() {
+  ModelTextures textures;
+  textures.images = {Texture(64, 32, 3), Texture(8, 8, 4)};
+  textures.uses = {use(0, "map_Kd", 0), use(1, "map_Kd", 1), use(2, "map_Kd", 0)};
+  return textures;
+}
+
+TEST(TextureSets, MaterialsThatLookAlikeShareOne) {
+  const Mesh mesh = four_triangles();
+  const ModelTextures textures = three_materials();
+  const auto sets = texture_sets(mesh, std::vector<std::uint32_t>{0, 1, 2, 0}, textures, false);
+  ASSERT_EQ(sets.size(), 2U);
+  EXPECT_EQ(sets[0].faces, (std::vector<std::uint32_t>{0, 2}));  // 3 has no UVs
+  EXPECT_EQ(sets[1].faces, (std::vector<std::uint32_t>{1}));
+  ASSERT_EQ(sets[0].textures.size(), 1U);
+  EXPECT_EQ(sets[0].textures[0].uses, (std::vector<std::size_t>{0, 2}));
+  EXPECT_EQ(sets[0].textures[0].name, "map_Kd");
+  EXPECT_EQ(sets[0].mesh.face_count(), 2U);
+  EXPECT_EQ(sets[1].textures[0].target.channels, 4);
+}
+
+TEST(TextureSets, MergedThereIsOneForAll) {
+  const ModelTextures textures = three_materials();
+  const auto sets =
+      texture_sets(four_triangles(), std::vector<std::uint32_t>{0, 1, 2, 0}, textures, true);
+  ASSERT_EQ(sets.size(), 1U);
+  EXPECT_EQ(sets[0].faces, (std::vector<std::uint32_t>{0, 1, 2}));
+  EXPECT_EQ(sets[0].group, (std::vector<std::uint32_t>{0, 1, 0}));
+  ASSERT_EQ(sets[0].textures.size(), 1U);
+  const TransferTarget& target = sets[0].textures[0].target;
+  EXPECT_EQ(target.channels, 4);
+  EXPECT_EQ(target.of_group[0].texture, &textures.images[0]);
+  EXPECT_EQ(target.of_group[1].texture, &textures.images[1]);
+}
+
+TEST(TextureSets, WithoutTexturesThereIsNone) {
+  EXPECT_TRUE(texture_sets(four_triangles(), {}, {}, true).empty());
+  const ModelTextures textures = three_materials();
+  EXPECT_TRUE(
+      texture_sets(four_triangles(), std::vector<std::uint32_t>(4, 9), textures, false).empty());
+}
+
+TEST(TextureSets, InTexelsGroupsLieApart) {
+  const ModelTextures textures = three_materials();
+  const auto sets =
+      texture_sets(four_triangles(), std::vector<std::uint32_t>{0, 1, 2, 0}, textures, true);
+  const Mesh mesh = mesh_in_texels(sets[0]);
+  EXPECT_EQ(mesh.texcoords[1], (Vec2{32, 0}));
+  EXPECT_EQ(mesh.texcoords[2], (Vec2{0, 16}));
+  EXPECT_GT(mesh.texcoords[3].x, 8);  // of the other group, though it lay at the same place
+  EXPECT_EQ(mesh.texcoords[6], (Vec2{0, 0}));
+}
+
+TEST(PlacePart, OnlyItsFacesChange) {
+  const Mesh mesh = four_triangles();
+  AtlasMesh whole = keep_texcoords(mesh);
+  const std::vector<std::uint32_t> faces{1, 3};
+  Mesh part = select_faces(mesh, faces);
+  part.texcoords = {{0.25, 0.25}};
+  part.corner_texcoord = {0, 0, 0, 0, 0, kNone};
+  AtlasMesh atlas = keep_texcoords(part);
+  atlas.wrap = Wrap::v;
+  place_part(whole, faces, atlas);
+  EXPECT_EQ(whole.wrap, Wrap::v);
+  EXPECT_EQ(whole.texcoords[whole.corner_texcoord[0]], mesh.texcoords[0]);
+  EXPECT_EQ(whole.texcoords[whole.corner_texcoord[3]], (Vec2{0.25, 0.25}));
+  EXPECT_EQ(whole.texcoords[whole.corner_texcoord[6]], mesh.texcoords[6]);
+  EXPECT_EQ(whole.texcoords[whole.corner_texcoord[10]], (Vec2{0.25, 0.25}));
+  EXPECT_EQ(whole.corner_texcoord[11], kNone);
+}
+
+}  // namespace
+}  // namespace wrapatlas

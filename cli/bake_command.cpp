@@ -180,11 +180,13 @@ int run(const CLI::App& app, BakeArguments& a) {
   if (const Status ok = resolve(app, a); !ok) return report_error(ok.error());
   LoadOptions low_options;
   low_options.texcoord_set = a.texcoord;
-  low_options.shading = true;
+  low_options.shading = low_options.in_scene = true;
   const auto low = load_model(a.low, low_options);
   if (!low) return report_error(low.error());
   LoadOptions high_options;
   high_options.shading = true;
+  high_options.in_scene = true;
+  high_options.may_add_set = true;  // it need not have any
   const auto high = load_model(a.high, high_options);
   if (!high) return report_error(high.error());
   if (const Status ok = check_files(a, *low, *high); !ok) return report_error(ok.error());
@@ -205,12 +207,16 @@ int run(const CLI::App& app, BakeArguments& a) {
   const bool bakes_color = std::find(a.maps.begin(), a.maps.end(), BakedMap::color) != a.maps.end();
   if (bakes_color && a.color.empty()) {
     auto found = base_colors(*high);
-    if (!found) return report_error(found.error());
-    own = *std::move(found);
+    if (!found && high->corner_color.empty()) return report_error(found.error());
+    if (!found && !a.quiet) {
+      say("{}: note: baked from the colours of its vertices, without its textures: {}\n", a.high,
+          found.error().message());
+    }
+    if (found) own = *std::move(found);
     source.group_colors = own.groups;
     source.face_group = own.face_group;
-    source.position_color = high->position_color;
-    if (own.groups.empty() && high->position_color.empty()) {
+    source.corner_color = high->corner_color;
+    if (own.groups.empty() && high->corner_color.empty()) {
       return report_error({ErrorKind::input, a.high,
                            "it has no colours: no textures, and none of its vertices",
                            "give --color-from FILE"});

@@ -173,12 +173,15 @@ int run(const CLI::App& app, RenderArguments& a) {
   if (const Status ok = resolve(app, a); !ok) return report_error(ok.error());
   LoadOptions load_options;
   load_options.texcoord_set = a.texcoord;
-  load_options.shading = true;
+  load_options.shading = load_options.in_scene = true;
   const auto model = load_model(a.input, load_options);
   if (!model) return report_error(model.error());
   std::optional<Model> framed;
   if (!a.framed.empty()) {
-    auto other = load_model(a.framed);
+    LoadOptions framed_options;
+    framed_options.in_scene = true;
+    framed_options.may_add_set = true;  // it need not have any
+    auto other = load_model(a.framed, framed_options);
     if (!other) return report_error(other.error());
     framed = std::move(*other);
     a.options.framed = &framed->mesh;

@@ -154,7 +154,10 @@ std::string summary(const SimplifyReport& report, bool has_uvs) {
 int run(SimplifyArguments& arguments) {
   const double start = seconds_now();
   if (const Status ok = check_outputs(arguments); !ok) return report_error(ok.error());
-  auto model = load_model(arguments.input);
+  LoadOptions load_options;
+  load_options.in_scene = true;
+  load_options.may_add_set = true;  // it need not have any
+  auto model = load_model(arguments.input, load_options);
   if (!model) return report_error(model.error());
   const OutputPath report_path[] = {{"--json", arguments.json}};
   if (const Status ok = refuse_overwriting(arguments.input, *model, report_path); !ok) {

@@ -75,7 +75,7 @@ Result<Packing> pack_texels(const TransferArguments& a, const ChartSet& charts,
   options.time = 0;
   double side = std::sqrt(charts.total_area() / 0.75), least = 1;
   constexpr double kMost = 16384;
-  constexpr int kRounds = 4;
+  constexpr int kRounds = 4, kMostRounds = 9;
   for (int round = 1;; ++round) {
     side = 4 * std::ceil(std::max(side, least) / 4);
     if (side > kMost) {
@@ -84,16 +84,17 @@ Result<Packing> pack_texels(const TransferArguments& a, const ChartSet& charts,
                    "give --resolution; where textures repeat often, they had better stay"};
     }
     options.width = options.height = static_cast<int>(side);
-    const bool last = round == kRounds;
-    options.time = last ? asked : 0;
+    options.time = round < kRounds ? 0 : asked;
     auto packing = pack(charts.charts, options);
     if (!packing && packing.error().kind == ErrorKind::no_packing) {
       least = 2 * side;  // the padding alone needs more
       round = 0;
       continue;
     }
-    if (!packing || packing->interrupted || last) return packing;
-    side *= 1.002 / packing->scale;
+    if (!packing || packing->interrupted) return packing;
+    if ((round >= kRounds && packing->scale >= 1) || round == kMostRounds) return packing;
+    // Towards the end it only grows.
+    side *= round < kRounds ? 1.002 / packing->scale : std::max(1.002 / packing->scale, 1.002);
   }
 }
 
@@ -143,14 +144,14 @@ Result<NewAtlas> pack_texture_set(const TransferArguments& a, const TextureSet& 
 }
 
 Status fill_textures(const TransferArguments& a, const TextureSet& set, bool v_points_down,
-                     bool keep_tangents, const std::string& label, NewAtlas& atlas) {
+                     const std::string& label, NewAtlas& atlas) {
   ProgressLine line(!a.pack.quiet);
   TransferOptions options;
   options.width = atlas.packing.width;
   options.height = atlas.packing.height;
   options.wrap = atlas.packing.wrap;
   options.v_points_down = v_points_down;
-  options.keep_tangents = keep_tangents;
+  options.keeps_tangents = set.keeps_tangents;
   options.threads = a.pack.options.threads;
   options.progress = [&](double share) {
     line.show(fmt::format("{}moving textures {:3.0f} %", label, 100 * share));

@@ -32,6 +32,6 @@ Result<NewAtlas> pack_texture_set(const TransferArguments& arguments, const Text
 
 /// Fills its textures.
 Status fill_textures(const TransferArguments& arguments, const TextureSet& set, bool v_points_down,
-                     bool keep_tangents, const std::string& label, NewAtlas& atlas);
+                     const std::string& label, NewAtlas& atlas);
 
 }  // namespace wrapatlas::cli

@@ -162,6 +162,12 @@ int run(const CLI::App& app, TransferArguments& a) {
   if (const Status ok = keep_input(pack, *model); !ok) return report_error(ok.error());
   const auto old = load_textures(*model);
   if (!old) return report_error(inside_input(pack, old.error()));
+  if (old->has_variants) {
+    return report_error({ErrorKind::input, pack.input,
+                         "its faces have other materials too (KHR_materials_variants), whose "
+                         "textures would not follow",
+                         "take the variants out first"});
+  }
   const std::vector<TextureSet> sets =
       texture_sets(model->mesh, model->face_material, *old, a.merge);
   if (sets.empty()) {
@@ -175,9 +181,7 @@ int run(const CLI::App& app, TransferArguments& a) {
         sets.size() == 1 ? "" : fmt::format("atlas {} of {}: ", i + 1, sets.size());
     auto atlas = pack_texture_set(a, sets[i], model->v_points_down, label);
     if (!atlas) return report_error(inside_input(pack, atlas.error()));
-    if (const Status ok =
-            fill_textures(a, sets[i], model->v_points_down, old->has_tangents, label, *atlas);
-        !ok) {
+    if (const Status ok = fill_textures(a, sets[i], model->v_points_down, label, *atlas); !ok) {
       return report_error(inside_input(pack, ok.error()));
     }
     atlases.push_back(*std::move(atlas));

@@ -50,8 +50,9 @@ struct BakeSource {
   /// In place of `color`, if there are any: colours per group of faces, and per face its group.
   std::span<const GroupColor> group_colors;
   std::span<const std::uint32_t> face_group;
-  /// Per position of the mesh, linear light: of faces that have no texture of these kinds.
-  std::span<const std::array<float, 3>> position_color;
+  /// Per corner of the mesh, linear light: of faces that have no texture of these kinds. Without
+  /// these too they are white.
+  std::span<const std::array<float, 3>> corner_color;
   std::span<const Vec3> corner_normals;  ///< as in BakeOptions
   bool v_points_down = false;
 };

@@ -26,7 +26,10 @@ struct LoadOptions {
   /// The set may also be the one after the last that the primitives have: the mesh has no UVs then,
   /// and save_model adds the set (glTF; the other formats have one, which may always be missing).
   bool may_add_set = false;
-  bool shading = false;  ///< fill Model::corner_normal and Model::position_color
+  bool shading = false;  ///< fill Model::corner_normal and Model::corner_color
+  /// The mesh is what the scene shows, meshes placed by the nodes that have them (glTF). Not for
+  /// models that are to be saved.
+  bool in_scene = false;
 };
 
 /// A file in memory: its mesh, and what is needed to write it back unchanged but for the UVs.
@@ -42,7 +45,7 @@ class Model {
                         const AtlasMesh& atlas) const = 0;
     /// For load_textures, and for save_model with other textures. Error: usage, where the format
     /// has none.
-    [[nodiscard]] virtual Result<ModelTextures> textures() const;
+    [[nodiscard]] virtual Result<ModelTextures> textures(bool base_colors_alone) const;
     virtual Status save(const std::filesystem::path& path, const Mesh& mesh, const AtlasMesh& atlas,
                         std::span<const NewTexture> textures) const;
   };
@@ -52,14 +55,15 @@ class Model {
   /// Per corner of the mesh, unit, or zero where there is none; empty: the file has none, or
   /// LoadOptions::shading is off.
   std::vector<Vec3> corner_normal;
-  /// Per position of the mesh: red, green, blue in linear light; empty as above.
-  std::vector<std::array<float, 3>> position_color;
+  /// Per corner of the mesh: red, green, blue in linear light; empty as above.
+  std::vector<std::array<float, 3>> corner_color;
   FileFormat format = FileFormat::obj;
   std::vector<std::string> remarks;         ///< what was repaired or left aside, one line each
   std::vector<std::string> material_files;  ///< that an OBJ names (mtllib), as written there
-  std::vector<std::filesystem::path> side_files;  ///< that a glTF refers to: buffers and images
-  bool v_points_down = false;                     ///< v = 0 is the top row of the texture (glTF)
-  std::unique_ptr<Source> source;                 ///< null for formats that cannot hold UVs
+  std::vector<std::filesystem::path>
+      side_files;                  ///< that it refers to: buffers, materials, pictures
+  bool v_points_down = false;      ///< v = 0 is the top row of the texture (glTF)
+  std::unique_ptr<Source> source;  ///< null for formats that cannot hold UVs
 };
 
 /// Reads a model. The mesh passes validate_mesh. Errors name file and line (or accessor).

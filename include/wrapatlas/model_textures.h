@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "wrapatlas/transfer.h"
@@ -20,8 +21,13 @@ struct TextureUse {
 struct ModelTextures {
   std::vector<Texture> images;
   std::vector<TextureUse> uses;  ///< in the order of the file
-  bool has_tangents = false;     ///< vertices have tangents of their own
+  /// Per face: its vertices have tangents of their own; empty: no face's have.
+  std::vector<std::uint8_t> face_has_tangents;
+  bool has_variants = false;  ///< faces have other materials too (KHR_materials_variants)
 };
+
+/// Does a place hold the colour of the surface: baseColorTexture, diffuseTexture, map_Kd?
+bool is_base_color(std::string_view place);
 
 /// A texture that takes the place of others.
 struct NewTexture {
@@ -32,6 +38,13 @@ struct NewTexture {
 
 /// The colours that the materials of a model give its faces.
 struct BaseColors {
+  BaseColors() = default;
+  BaseColors(BaseColors&&) = default;
+  BaseColors& operator=(BaseColors&&) = default;
+  BaseColors(const BaseColors&) = delete;  // `groups` point into `maps`
+  BaseColors& operator=(const BaseColors&) = delete;
+  ~BaseColors() = default;
+
   std::vector<MipMaps> maps;              ///< linear light
   std::vector<GroupColor> groups;         ///< empty: no material has any
   std::vector<std::uint32_t> face_group;  ///< per face; empty with `groups`
@@ -39,9 +52,9 @@ struct BaseColors {
 
 class Model;
 
-/// Decodes all textures that follow the loaded UVs. Errors: usage (a format without textures),
-/// input (a texture that is missing, or neither PNG nor JPEG).
-Result<ModelTextures> load_textures(const Model& model);
+/// Decodes all textures that follow the loaded UVs, or base colours alone. Errors: usage (a format
+/// without textures), input (a texture that is missing, or neither PNG nor JPEG).
+Result<ModelTextures> load_textures(const Model& model, bool base_colors_alone = false);
 
 /// The textures of base colours alone (baseColorTexture, diffuseTexture, map_Kd). None, without an
 /// error, for formats without textures and for meshes without UVs. Errors: input.

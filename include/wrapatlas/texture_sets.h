@@ -25,6 +25,7 @@ struct TextureSet {
   Mesh mesh;                         ///< these faces alone, with their UVs
   /// Per face of `mesh`: faces of one group have the same old textures.
   std::vector<std::uint32_t> group;
+  std::vector<std::uint8_t> keeps_tangents;  ///< per face of `mesh`, as TransferOptions has it
   std::vector<Vec2> texels;  ///< per group: of its largest texture, per unit of u and of v
   std::vector<SetTexture> textures;
 };

@@ -46,8 +46,9 @@ struct TransferOptions {
   int width = 1024, height = 1024;  ///< texels
   Wrap wrap = Wrap::uv;             ///< axes on which the new atlas repeats
   bool v_points_down = false;       ///< of both meshes' UVs, as Model has it
-  /// Normal maps stay along the tangents that the file has: their values are not turned.
-  bool keep_tangents = false;
+  /// Per face: whether it has tangents of its own that stay what they are, so that values of normal
+  /// maps are not turned; empty: no face has. Else tangents are along the places on the textures.
+  std::span<const std::uint8_t> keeps_tangents;
   int threads = 0;                       ///< 0: as many as there are
   std::function<bool(double)> progress;  ///< the share that is done; false: stop
 };

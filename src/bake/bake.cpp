@@ -1,15 +1,17 @@
 // From a texel to a place of the low mesh, from there to the high one, and back with what is there.
 #include "wrapatlas/bake.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <mutex>
 
+#include "bake/drawable.h"
 #include "bake/high_surface.h"
 #include "bake/low_surface.h"
 #include "bake/texel_samples.h"
-#include "bake/texture_size.h"
 #include "mesh/triangulate.h"
 #include "threads/parallel.h"
 
@@ -18,6 +20,28 @@ namespace {
 
 Error usage(const char* where, const char* what, const char* remedy) {
   return {ErrorKind::usage, where, what, remedy};
+}
+
+/// What comes beside the meshes, one entry for each of their parts.
+Status check_arrays(const Mesh& low, const BakeSource& high, const BakeOptions& o) {
+  const auto fits = [](std::size_t size, std::size_t wanted) {
+    return size == 0 || size == wanted;
+  };
+  if (high.mesh == nullptr) return usage("high mesh", "there is none", "pass one");
+  if (!fits(o.corner_normals.size(), low.corner_count()) ||
+      !fits(high.corner_normals.size(), high.mesh->corner_count())) {
+    return usage("corner normals", "not one for each corner", "pass one for each, or none");
+  }
+  if (!fits(high.corner_color.size(), high.mesh->corner_count())) {
+    return usage("corner colours", "not one for each corner", "pass one for each, or none");
+  }
+  if (high.group_colors.empty()) return Done{};
+  if (high.face_group.size() != high.mesh->face_count() ||
+      *std::max_element(high.face_group.begin(), high.face_group.end()) >=
+          high.group_colors.size()) {
+    return usage("face groups", "not one of the groups for each face", "pass one for each");
+  }
+  return Done{};
 }
 
 Status check_options(const BakeSource& high, std::span<const BakedMap> maps, const BakeOptions& o) {
@@ -41,8 +65,8 @@ Status check_options(const BakeSource& high, std::span<const BakedMap> maps, con
   if (color && textured && high.mesh->texcoords.empty()) {
     return usage("color", "the high mesh has no UVs for its texture", "give both");
   }
-  if (color && !textured && high.position_color.empty()) {
-    return usage("color", "the high mesh has no colours", "give a texture, or some per position");
+  if (color && !textured && high.corner_color.empty()) {
+    return usage("color", "the high mesh has no colours", "give a texture, or some per corner");
   }
   return Done{};
 }
@@ -96,7 +120,7 @@ class Baker {
   void bake_band(std::size_t band) {
     std::vector<TexelSample> samples;
     samples_.read_band(band, samples);
-    const int first = TexelSamples::kBandRows * static_cast<int>(band);
+    const int first = samples_.rows_per_band() * static_cast<int>(band);
     for (int row = 0; row < samples_.band_rows(band); ++row) {
       for (int x = 0; x < options_.width; ++x) bake_texel(samples, row, x, first + row);
     }
@@ -215,7 +239,7 @@ class Baker {
   std::atomic<std::size_t> done_{0}, used_{0}, nearest_{0};
 };
 
-/// Twice the largest distance of a corner or a middle of a face to the high mesh.
+/// Twice the largest distance of a point or a middle of a face to the high mesh.
 double search_distance(const Mesh& low, const RayScene& scene) {
   double farthest = 0;
   const auto look = [&](const Vec3& place) {
@@ -223,12 +247,25 @@ double search_distance(const Mesh& low, const RayScene& scene) {
       farthest = std::max(farthest, point->distance);
     }
   };
+  std::vector<bool> seen(low.positions.size());
+  for (const std::uint32_t i : low.corner_position) {
+    if (!seen[i]) look(low.positions[i]);
+    seen[i] = true;
+  }
   for (std::uint32_t face = 0; face < low.face_count(); ++face) {
-    const Triangle t = triangle_of(low, face);
-    look(t[0]);
-    look(point_at(t, {1.0 / 3, 1.0 / 3, 1.0 / 3}));
+    look(point_at(triangle_of(low, face), {1.0 / 3, 1.0 / 3, 1.0 / 3}));
   }
   return std::max(2 * farthest, 1e-4 * scene.diagonal());
+}
+
+/// Where one mesh is a speck beside the other, numbers of 32 bits tell nothing apart.
+Status check_places(const BakeResult& result, const RayScene& scene) {
+  constexpr double kMost = 1e6, kLeast = 1e-150;
+  const double times = result.extent / scene.diagonal();
+  if (scene.diagonal() > kLeast && times < kMost) return Done{};
+  return Error{ErrorKind::input, "high mesh",
+               fmt::format("both meshes together are {:.2g} times as large", times),
+               "bring them to one place and one size"};
 }
 
 void set_box(const Mesh& low, const Mesh& high, BakeResult& result) {
@@ -250,18 +287,20 @@ void set_box(const Mesh& low, const Mesh& high, BakeResult& result) {
 
 Result<BakeResult> bake(const Mesh& low, const BakeSource& high, std::span<const BakedMap> maps,
                         const BakeOptions& options) {
-  if (const Status ok = check_options(high, maps, options); !ok) return ok.error();
   for (const Mesh* mesh : {&low, high.mesh}) {
-    if (mesh->face_count() == 0) {
+    if (mesh != nullptr && mesh->face_count() == 0) {
       return Error{ErrorKind::input, mesh == &low ? "low mesh" : "high mesh", "it has no faces",
                    "export it again"};
     }
   }
+  if (const Status ok = check_arrays(low, high, options); !ok) return ok.error();
+  if (const Status ok = check_options(high, maps, options); !ok) return ok.error();
   const int threads = thread_count(options.threads);
   const Triangulated low_triangles = triangulated(low), high_triangles = triangulated(*high.mesh);
   BakeResult result;
   const TexelSamples samples(low_triangles.mesh, options.width, options.height, options.wrap,
                              options.v_points_down, options.samples);
+  if (Status ok = check_samples(samples, low_triangles, "low mesh"); !ok) return ok.error();
   result.faces_without_uv = samples.faces_without_uv();
   if (result.faces_without_uv == low_triangles.mesh.face_count()) {
     return Error{ErrorKind::input, "low mesh", "no face has UVs to bake on", "unwrap it first"};
@@ -272,16 +311,21 @@ Result<BakeResult> bake(const Mesh& low, const BakeSource& high, std::span<const
   const LowSurface low_surface(
       low_triangles.mesh, corner_normals(low_triangles, options.corner_normals, options.hard_angle),
       options.v_points_down);
+  set_box(low, *high.mesh, result);
+  if (Status ok = check_places(result, high_surface->scene()); !ok) return ok.error();
   result.distance = options.distance > 0
                         ? options.distance
                         : search_distance(low_triangles.mesh, high_surface->scene());
-  set_box(low, *high.mesh, result);
   for (const BakedMap map : maps) {
     result.maps.emplace_back(options.width, options.height, channels_of(map, high));
   }
   result.inside.assign(result.maps.front().texel_count(), 0);
   Baker baker(low_surface, *high_surface, samples, maps, options, result);
   if (!baker.run(threads)) return Error{ErrorKind::interrupted, "", "stopped", ""};
+  if (result.texels_used == 0) {
+    return Error{ErrorKind::input, "low mesh", "no face lies within the atlas",
+                 "move its UVs into [0, 1], or let the atlas wrap"};
+  }
   for (Texture& map : result.maps) dilate(map, baker.reached(), options.wrap);
   return result;
 }

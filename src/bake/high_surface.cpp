@@ -24,12 +24,14 @@ Vec3 HighSurface::face_normal(std::uint32_t triangle) const {
 HighPoint HighSurface::find(const Vec3& place, const Vec3& normal, double distance) const {
   std::optional<SurfacePoint> best;
   for (const double way : {1.0, -1.0}) {
-    const auto hit = scene_.first_hit(place, way * normal, best ? best->distance : distance);
-    if (hit && dot(face_normal(hit->triangle), normal) > 0) best = hit;
+    const auto hit =
+        scene_.first_hit(place, way * normal, best ? best->distance : distance, normal);
+    if (hit) best = hit;
   }
   const bool by_ray = best.has_value();
+  if (!best) best = scene_.nearest_point(place, normal);
   if (!best) best = scene_.nearest_point(place);
-  if (!best) return {};
+  if (!best) return {0, {1, 0, 0}, false};  // not to be: every mesh has a nearest point
   return {best->triangle, best->weights, by_ray};
 }
 
@@ -52,11 +54,12 @@ TextureValue HighSurface::color(const HighPoint& point) const {
                             ? source_->color != nullptr
                             : source_->group_colors[group].maps != nullptr;
   if (textured) return texture_color(point);
+  if (source_->corner_color.empty()) return {1, 1, 1, 1};
   TextureValue sum{0, 0, 0, 1};
-  for (std::size_t i = 0; i < 3 && !source_->position_color.empty(); ++i) {
-    const std::uint32_t at = mesh_->corner_position[3 * std::size_t{point.triangle} + i];
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::uint32_t at = (*corner_)[3 * std::size_t{point.triangle} + i];
     for (std::size_t c = 0; c < 3; ++c) {
-      sum[c] += static_cast<float>(point.weights[i]) * source_->position_color[at][c];
+      sum[c] += static_cast<float>(point.weights[i]) * source_->corner_color[at][c];
     }
   }
   return sum;

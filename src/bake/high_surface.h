@@ -21,7 +21,7 @@ class HighSurface {
                                    double hard_angle, int threads);
 
   /// The nearest place along the normal, both ways, that faces as the normal does; or else the
-  /// nearest point of all. `normal`: a unit vector.
+  /// nearest point of a face that does, or of all. `normal`: a unit vector.
   [[nodiscard]] HighPoint find(const Vec3& place, const Vec3& normal, double distance) const;
 
   [[nodiscard]] Vec3 position(const HighPoint& point) const;
@@ -38,6 +38,7 @@ class HighSurface {
   HighSurface(const Triangulated& mesh, const BakeSource& source, double hard_angle, RayScene scene)
       : mesh_(&mesh.mesh),
         face_(&mesh.face_source),
+        corner_(&mesh.corner_source),
         source_(&source),
         normals_(corner_normals(mesh, source.corner_normals, hard_angle)),
         scene_(std::move(scene)) {}
@@ -47,7 +48,8 @@ class HighSurface {
   [[nodiscard]] TextureValue texture_color(const HighPoint& point) const;
 
   const Mesh* mesh_;
-  const std::vector<std::uint32_t>* face_;  ///< of the source, per triangle
+  const std::vector<std::uint32_t>* face_;    ///< of the source, per triangle
+  const std::vector<std::uint32_t>* corner_;  ///< of the source, per corner
   const BakeSource* source_;
   CornerVectors normals_;
   RayScene scene_;

@@ -51,9 +51,30 @@ RTCRay ray_of(const Vec3& origin, const Vec3& direction, double nearest, double 
   return ray;
 }
 
+/// Has the triangle's normal a part along `facing`? Of none every triangle does.
+bool faces(const Mesh& mesh, std::uint32_t triangle, const Vec3& facing) {
+  if (facing == Vec3{}) return true;
+  const Triangle t = triangle_of(mesh, triangle);
+  return dot(cross(t[1] - t[0], t[2] - t[0]), facing) > 0;
+}
+
+/// What a ray carries along.
+struct RayContext {
+  RTCIntersectContext embree;  // first: Embree hands on a pointer to it
+  const Mesh* mesh;
+  Vec3 facing;
+};
+
+void pass_others(const RTCFilterFunctionNArguments* arguments) {
+  const auto& context = *reinterpret_cast<const RayContext*>(arguments->context);
+  const std::uint32_t triangle = RTCHitN_primID(arguments->hit, arguments->N, 0);
+  if (!faces(*context.mesh, triangle, context.facing)) arguments->valid[0] = 0;
+}
+
 /// What a query for the nearest point carries along.
 struct Search {
   const Mesh* mesh;
+  Vec3 facing;
   Vec3 place;
   SurfacePoint best;
   double unit;  ///< the mesh's units in one of Embree's
@@ -61,6 +82,7 @@ struct Search {
 
 bool look_at_triangle(RTCPointQueryFunctionArguments* arguments) {
   Search& search = *static_cast<Search*>(arguments->userPtr);
+  if (!faces(*search.mesh, arguments->primID, search.facing)) return false;
   const std::array<double, 3> weights =
       nearest_weights(triangle_of(*search.mesh, arguments->primID), search.place);
   const Vec3 at = point_at(triangle_of(*search.mesh, arguments->primID), weights);
@@ -98,7 +120,9 @@ Result<RayScene> RayScene::build(const Mesh& mesh, int threads) {
   parts->device = rtcNewDevice(fmt::format("threads={}", std::max(1, threads)).c_str());
   if (parts->device == nullptr) return embree_error("it cannot start");
   parts->scene = rtcNewScene(parts->device);
-  rtcSetSceneFlags(parts->scene, RTC_SCENE_FLAG_ROBUST);
+  rtcSetSceneFlags(
+      parts->scene,
+      static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION));
   RTCGeometry geometry = rtcNewGeometry(parts->device, RTC_GEOMETRY_TYPE_TRIANGLE);
   auto* vertices = static_cast<float*>(
       rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
@@ -126,15 +150,16 @@ Result<RayScene> RayScene::build(const Mesh& mesh, int threads) {
 }
 
 std::optional<SurfacePoint> RayScene::first_hit(const Vec3& origin, const Vec3& direction,
-                                                double farthest) const {
+                                                double farthest, const Vec3& facing) const {
   const double unit = parts_->diagonal;
   RTCRayHit found{};
   found.ray = ray_of(parts_->inside(origin), direction, 0, farthest / unit);
   found.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   found.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  rtcIntersect1(parts_->scene, &context, &found);
+  RayContext context{{}, parts_->mesh, facing};
+  rtcInitIntersectContext(&context.embree);
+  context.embree.filter = pass_others;
+  rtcIntersect1(parts_->scene, &context.embree, &found);
   if (found.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
   const double u = found.hit.u, v = found.hit.v;
   return SurfacePoint{found.hit.primID, {1 - u - v, u, v}, unit * found.ray.tfar};
@@ -150,17 +175,18 @@ bool RayScene::is_blocked(const Vec3& origin, const Vec3& direction, double near
   return ray.tfar < 0;
 }
 
-std::optional<SurfacePoint> RayScene::nearest_point(const Vec3& place, double farthest) const {
+std::optional<SurfacePoint> RayScene::nearest_point(const Vec3& place, const Vec3& facing) const {
+  constexpr double kFarthest = std::numeric_limits<double>::infinity();
   const double unit = parts_->diagonal;
   const Vec3 at = parts_->inside(place);
   RTCPointQuery query{};
   query.x = to_float(at.x);
   query.y = to_float(at.y);
   query.z = to_float(at.z);
-  query.radius = to_float(farthest / unit);
+  query.radius = to_float(kFarthest);
   RTCPointQueryContext context;
   rtcInitPointQueryContext(&context);
-  Search search{parts_->mesh, place, {kNone, {}, farthest}, unit};
+  Search search{parts_->mesh, facing, place, {kNone, {}, kFarthest}, unit};
   rtcPointQuery(parts_->scene, &query, &context, look_at_triangle, &search);
   if (search.best.triangle == kNone) return std::nullopt;
   return search.best;

@@ -30,14 +30,16 @@ class RayScene {
   RayScene& operator=(RayScene&&) noexcept;
   ~RayScene();
 
-  /// The first place along a ray, up to `farthest`. `direction`: a unit vector.
+  /// The first place along a ray, up to `farthest`. `direction`: a unit vector. With a `facing`
+  /// only triangles count whose normal has a part along it; rays go through the others.
   [[nodiscard]] std::optional<SurfacePoint> first_hit(const Vec3& origin, const Vec3& direction,
-                                                      double farthest) const;
+                                                      double farthest,
+                                                      const Vec3& facing = {}) const;
   /// Whether there is anything along a ray, from `nearest` on.
   [[nodiscard]] bool is_blocked(const Vec3& origin, const Vec3& direction, double nearest,
                                 double farthest) const;
-  [[nodiscard]] std::optional<SurfacePoint> nearest_point(
-      const Vec3& place, double farthest = std::numeric_limits<double>::infinity()) const;
+  [[nodiscard]] std::optional<SurfacePoint> nearest_point(const Vec3& place,
+                                                          const Vec3& facing = {}) const;
 
   /// Length of the diagonal of the mesh's box.
   [[nodiscard]] double diagonal() const;

@@ -11,6 +11,9 @@ namespace wrapatlas {
 namespace {
 
 constexpr double kMostAtlases = 1e6;  ///< away from [0, 1]
+constexpr double kMostImages = 1024;  ///< of one triangle
+constexpr double kLeastArea = 1e-12;  ///< of a triangle, square texels, doubled
+constexpr int kMostRows = 16;         ///< of a band, texels
 constexpr double kHair = 1e-6;        ///< texels: nearer than this is on the triangle
 
 std::array<double, 3> weights_at(const std::array<Vec2, 3>& corner, Vec2 p) {
@@ -26,6 +29,12 @@ Vec2 place(const std::array<Vec2, 3>& corner, const std::array<double, 3>& weigh
 
 bool is_inside(const std::array<double, 3>& weights) {
   return weights[0] >= 0 && weights[1] >= 0 && weights[2] >= 0;
+}
+
+/// As many as take up some 16 MB of samples, within reason.
+int rows_of_band(int width, int across) {
+  const double row = 1.0 * width * across * across * sizeof(TexelSample);
+  return static_cast<int>(std::clamp(16e6 / row, 1.0, double(kMostRows)));
 }
 
 /// What a triangle has of the strip from `low` to `high`, from left to right.
@@ -73,6 +82,7 @@ TexelSamples::TexelSamples(const Mesh& mesh, int width, int height, Wrap wrap, b
       width_(width),
       height_(height),
       across_(across),
+      rows_(rows_of_band(width, across)),
       wrap_(wrap),
       v_points_down_(v_points_down) {
   find_charts();
@@ -80,7 +90,7 @@ TexelSamples::TexelSamples(const Mesh& mesh, int width, int height, Wrap wrap, b
   for (std::uint32_t triangle = 0; triangle < mesh.face_count(); ++triangle) {
     add_images(triangle, images);
   }
-  const int bands = (height + kBandRows - 1) / kBandRows;
+  const int bands = (height + rows_ - 1) / rows_;
   band_begin_.assign(static_cast<std::size_t>(bands) + 1, 0);
   for (const Image& image : images) {
     const auto [first, last] = bands_of(image);
@@ -132,7 +142,7 @@ void TexelSamples::add_images(std::uint32_t triangle, std::vector<Image>& images
   const std::uint32_t* texcoord = mesh_.corner_texcoord.data() + 3 * std::size_t{triangle};
   const bool has_uv = texcoord[0] != kNone && texcoord[1] != kNone && texcoord[2] != kNone;
   const std::array<Vec2, 3> corner = has_uv ? corners(triangle) : std::array<Vec2, 3>{};
-  if (!has_uv || signed_area2(corner[0], corner[1], corner[2]) == 0) {
+  if (!has_uv || !(std::abs(signed_area2(corner[0], corner[1], corner[2])) > kLeastArea)) {
     ++faces_without_uv_;
     return;
   }
@@ -144,12 +154,16 @@ void TexelSamples::add_images(std::uint32_t triangle, std::vector<Image>& images
     const double first = -std::floor((high + kReach) / side);
     const double last = -std::floor((low - kReach) / side);
     if (!(std::abs(first) < kMostAtlases && std::abs(last) < kMostAtlases)) {
-      return std::pair<std::int32_t, std::int32_t>{1, 0};
+      return std::pair{0, static_cast<std::int32_t>(kMostImages)};  // too many
     }
     return std::pair{static_cast<std::int32_t>(first), static_cast<std::int32_t>(last)};
   };
   const auto [left, right] = range(box.min.x, box.max.x, width_, wraps_u(wrap_));
   const auto [top, bottom] = range(box.min.y, box.max.y, height_, wraps_v(wrap_));
+  if ((right - left + 1.0) * (bottom - top + 1.0) > kMostImages) {
+    boundless_ = std::min(boundless_, triangle);
+    return;
+  }
   for (std::int32_t y = top; y <= bottom; ++y) {
     for (std::int32_t x = left; x <= right; ++x) images.push_back({triangle, x, y});
   }
@@ -161,21 +175,21 @@ std::pair<int, int> TexelSamples::bands_of(const Image& image) const {
     low = std::min(low, p.y + double{1} * image.y * height_);
     high = std::max(high, p.y + double{1} * image.y * height_);
   }
-  const int last_band = (height_ + kBandRows - 1) / kBandRows - 1;
-  const double first = std::floor((low - kReach) / kBandRows);
-  const double last = std::floor((high + kReach) / kBandRows);
+  const int last_band = (height_ + rows_ - 1) / rows_ - 1;
+  const double first = std::floor((low - kReach) / rows_);
+  const double last = std::floor((high + kReach) / rows_);
   return {static_cast<int>(std::clamp(first, 0.0, last_band + 1.0)),
           static_cast<int>(std::clamp(last, -1.0, double(last_band)))};
 }
 
 int TexelSamples::band_rows(std::size_t band) const {
-  return std::min(kBandRows, height_ - kBandRows * static_cast<int>(band));
+  return std::min(rows_, height_ - rows_ * static_cast<int>(band));
 }
 
 void TexelSamples::read_band(std::size_t band, std::vector<TexelSample>& samples) const {
   const int rows = across_ * band_rows(band);
   samples.assign(std::size_t{1} * width_ * across_ * rows, TexelSample{});
-  const int first_row = across_ * kBandRows * static_cast<int>(band);
+  const int first_row = across_ * rows_ * static_cast<int>(band);
   for (std::size_t i = band_begin_[band]; i < band_begin_[band + 1]; ++i) {
     draw(images_[i], first_row, rows, samples);
   }
@@ -193,15 +207,18 @@ void TexelSamples::draw(const Image& image, int first_row, int row_count,
   const double step = 1.0 / across_;
   const auto first_at = [&](double place) { return std::ceil(across_ * place - 0.5); };
   const int columns = width_ * across_;
-  const int begin = static_cast<int>(std::max<double>(first_row, first_at(box.min.y - kReach)));
-  const int end =
-      static_cast<int>(std::min<double>(first_row + row_count, first_at(box.max.y + kReach) + 1));
+  const auto within = [](double value, int low, int high) {
+    return static_cast<int>(std::clamp(value, double(low), double(high)));
+  };
+  const int last_row = first_row + row_count;
+  const int begin = within(first_at(box.min.y - kReach), first_row, last_row);
+  const int end = within(first_at(box.max.y + kReach) + 1, first_row, last_row);
   for (int row = begin; row < end; ++row) {
     const double y = (row + 0.5) * step;
     const Interval x = extent_between(corner, y - kReach, y + kReach);
     if (x.empty()) continue;
-    const int left = static_cast<int>(std::max(0.0, first_at(x.low - kReach)));
-    const int right = static_cast<int>(std::min<double>(columns, first_at(x.high + kReach) + 1));
+    const int left = within(first_at(x.low - kReach), 0, columns);
+    const int right = within(first_at(x.high + kReach) + 1, 0, columns);
     for (int column = left; column < right; ++column) {
       TexelSample& sample =
           samples[std::size_t{1} * (row - first_row) * columns + static_cast<std::size_t>(column)];

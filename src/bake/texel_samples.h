@@ -22,15 +22,19 @@ struct TexelSample {
 /// middles of as many equal parts.
 class TexelSamples {
  public:
-  static constexpr int kBandRows = 16;   ///< texels
   static constexpr double kReach = 1.5;  ///< texels from a triangle that still count
 
   /// Preconditions: triangles alone. `v_points_down` as Model has it; rows are from the top.
   TexelSamples(const Mesh& mesh, int width, int height, Wrap wrap, bool v_points_down, int across);
 
   [[nodiscard]] std::size_t band_count() const { return band_begin_.size() - 1; }
-  [[nodiscard]] int band_rows(std::size_t band) const;  ///< texels
+  [[nodiscard]] int rows_per_band() const { return rows_; }  ///< texels; the last may have fewer
+  [[nodiscard]] int band_rows(std::size_t band) const;       ///< texels
+  /// No UVs, or none of any area to speak of.
   [[nodiscard]] std::size_t faces_without_uv() const { return faces_without_uv_; }
+  /// The first triangle whose UVs reach over more atlases, or lie farther away, than can be drawn,
+  /// or kNone; it and those like it are left out.
+  [[nodiscard]] std::uint32_t boundless_triangle() const { return boundless_; }
 
   /// The samples of a band, in rows of width * across. On a tie the first face has it. Thread safe.
   void read_band(std::size_t band, std::vector<TexelSample>& samples) const;
@@ -54,10 +58,11 @@ class TexelSamples {
             std::vector<TexelSample>& samples) const;
 
   const Mesh& mesh_;
-  int width_, height_, across_;
+  int width_, height_, across_, rows_;
   Wrap wrap_;
   bool v_points_down_;
   std::size_t faces_without_uv_ = 0;
+  std::uint32_t boundless_ = kNone;
   std::vector<std::uint32_t> chart_;     ///< per triangle
   std::vector<std::size_t> band_begin_;  ///< per band and one more, into
   std::vector<Image> images_;            ///< by band, then by triangle

@@ -96,7 +96,9 @@ std::vector<SetTexture> textures_for(std::span<const std::uint32_t> group_look, 
     std::string key = std::to_string(static_cast<int>(role));
     for (const At& one : at) {
       const TextureUse& use = textures.uses[one.use];
-      key += fmt::format(" {}:{}:{}", one.group, use.image, fmt::join(use.source.matrix, ","));
+      key +=
+          fmt::format(" {}:{}:{}:{}:{}", one.group, use.image, static_cast<int>(use.source.across),
+                      static_cast<int>(use.source.down), fmt::join(use.source.matrix, ","));
     }
     const auto [found, is_new] = known.try_emplace(key, result.size());
     if (is_new) {
@@ -147,6 +149,9 @@ std::vector<TextureSet> texture_sets(const Mesh& mesh, std::span<const std::uint
     TextureSet& set = sets[set_of_look[look]];
     set.faces.push_back(face);
     set.group.push_back(group_of_look[look]);
+    if (!textures.face_has_tangents.empty()) {
+      set.keeps_tangents.push_back(textures.face_has_tangents[face]);
+    }
   }
   for (std::size_t i = 0; i < sets.size(); ++i) {
     sets[i].mesh = select_faces(mesh, sets[i].faces);

@@ -7,8 +7,8 @@
 #include <map>
 #include <mutex>
 
+#include "bake/drawable.h"
 #include "bake/texel_samples.h"
-#include "bake/texture_size.h"
 #include "bake/triangle_point.h"
 #include "mesh/polygon_plane.h"
 #include "mesh/triangulate.h"
@@ -76,8 +76,8 @@ class Resampler {
                  TexelMask& reached) const {
     std::vector<TexelSample> samples;
     samples_.read_band(band, samples);
-    const std::size_t first =
-        band * TexelSamples::kBandRows * static_cast<std::size_t>(options_.width);
+    const std::size_t first = band * static_cast<std::size_t>(samples_.rows_per_band()) *
+                              static_cast<std::size_t>(options_.width);
     for (std::size_t i = 0; i < samples.size(); ++i) {
       const TexelSample& sample = samples[i];
       if (sample.triangle == kNone) continue;
@@ -122,8 +122,8 @@ class Resampler {
     const TextureValue value = level > 0.5
                                    ? sample_trilinear(maps, place, level, wrap_of(source))
                                    : sample_bicubic(maps.levels.front(), place, wrap_of(source));
-    if (role != TextureRole::normals || options_.keep_tangents) return value;
-    return turned(value, sample.triangle, old);
+    if (role != TextureRole::normals || keeps_tangents(sample.triangle)) return value;
+    return turned(value, sample.triangle, old, source);
   }
 
   /// By the areas of the triangle on both textures.
@@ -136,17 +136,28 @@ class Resampler {
     return from > to && to > 0 ? 0.5 * std::log2(from / to) : 0;
   }
 
+  [[nodiscard]] bool keeps_tangents(std::uint32_t triangle) const {
+    return !options_.keeps_tangents.empty() && options_.keeps_tangents[faces_[triangle]] != 0;
+  }
+
+  /// Places on a texture with v up, which is what tangent space has.
+  [[nodiscard]] std::array<Vec2, 3> upright(std::array<Vec2, 3> uv,
+                                            const TransferSource& source) const {
+    const auto& m = source.matrix;
+    for (Vec2& p : uv) {
+      const double down = options_.v_points_down ? p.y : 1 - p.y;
+      p = {m[0] * p.x + m[1] * down, -(m[3] * p.x + m[4] * down)};
+    }
+    return uv;
+  }
+
   /// The direction along the old axes, told along the new ones.
   [[nodiscard]] TextureValue turned(const TextureValue& value, std::uint32_t triangle,
-                                    std::array<Vec2, 3> old) const {
+                                    const std::array<Vec2, 3>& old_uv,
+                                    const TransferSource& source) const {
     const Triangle t = triangle_of(after_, triangle);
-    std::array<Vec2, 3> now = uvs(after_, triangle);
-    if (options_.v_points_down) {
-      for (std::size_t i = 0; i < 3; ++i) {
-        old[i].y = -old[i].y;
-        now[i].y = -now[i].y;
-      }
-    }
+    const std::array<Vec2, 3> old = upright(old_uv, source);
+    const std::array<Vec2, 3> now = upright(uvs(after_, triangle), {});
     const Axes from = axes_of(t, old), to = axes_of(t, now);
     const double x = 2.0 * double(value[0]) - 1, y = 2.0 * double(value[1]) - 1;
     const Vec3 flat = x * from.u + y * from.v;
@@ -187,6 +198,9 @@ Status check(const Mesh& before, const Mesh& after, std::span<const std::uint32_
   }
   if (before.texcoords.empty() || after.texcoords.empty()) {
     return Error{ErrorKind::input, "mesh", "it has no UVs", "unwrap it first"};
+  }
+  if (!options.keeps_tangents.empty() && options.keeps_tangents.size() != before.face_count()) {
+    return usage("tangents", "not one for each face", "pass one for each, or none");
   }
   if (group.size() != before.face_count()) {
     return usage("groups", "not one for each face", "pass one for each");

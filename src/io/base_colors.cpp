@@ -4,28 +4,24 @@
 #include "wrapatlas/model_textures.h"
 
 namespace wrapatlas {
-namespace {
 
-bool is_base_color(const std::string& place) {
+bool is_base_color(std::string_view place) {
   for (const char* name : {"baseColorTexture", "diffuseTexture", "map_Kd"}) {
     if (place.ends_with(name)) return true;
   }
   return false;
 }
 
-}  // namespace
-
 Result<BaseColors> base_colors(const Model& model) {
   BaseColors own;
   if (model.mesh.texcoords.empty() || !model.source) return own;
-  auto textures = load_textures(model);
+  auto textures = load_textures(model, true);
   if (!textures) {
     if (textures.error().kind == ErrorKind::usage) return own;
     return textures.error();
   }
   own.maps.resize(textures->images.size());
   for (const TextureUse& use : textures->uses) {
-    if (!is_base_color(use.place)) continue;
     MipMaps& maps = own.maps[use.image];
     if (maps.levels.empty()) {
       Texture& image = textures->images[use.image];

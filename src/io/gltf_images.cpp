@@ -69,15 +69,24 @@ TransferSource source_of(const Json& json, const GltfTextureUse& use) {
 
 class Reader {
  public:
-  explicit Reader(const GltfContents& contents) : contents_(contents), file_(contents.file) {}
+  Reader(const GltfContents& contents, bool base_colors_alone)
+      : contents_(contents), file_(contents.file), base_colors_alone_(base_colors_alone) {}
 
   Result<ModelTextures> read() {
     for (const GltfTextureUse& use : uses_that_follow(contents_)) {
+      if (base_colors_alone_ && !is_base_color(use.where.to_string())) continue;
       if (Status ok = add(use); !ok) return ok.error();
     }
     for (const GltfPrimitive& primitive : contents_.primitives) {
-      const Json& attributes = primitive_json(file_.json, primitive)["attributes"];
-      textures_.has_tangents = textures_.has_tangents || attributes.contains("TANGENT");
+      const Json& json = primitive_json(file_.json, primitive);
+      const std::uint8_t has_tangents = json["attributes"].contains("TANGENT") ? 1 : 0;
+      std::vector<std::uint8_t>& of_face = textures_.face_has_tangents;
+      of_face.resize(primitive.first_face + primitive.face_count, 0);
+      std::fill_n(of_face.begin() + primitive.first_face, primitive.face_count, has_tangents);
+      const Json* extensions = find_member(json, "extensions");
+      textures_.has_variants =
+          textures_.has_variants ||
+          (extensions != nullptr && extensions->contains("KHR_materials_variants"));
     }
     return std::move(textures_);
   }
@@ -90,22 +99,40 @@ class Reader {
     if (!image || *image >= images.size()) {
       return file_.error(place, "it has no PNG or JPEG picture", "convert its pictures to PNG");
     }
-    const auto [found, is_new] = number_.try_emplace(*image, textures_.images.size());
+    const auto [found, is_new] =
+        number_.try_emplace(place_of(images[*image]), textures_.images.size());
     if (is_new) {
       const std::string name = fmt::format("image {}", *image);
       const auto bytes = bytes_of(images[*image], name);
       if (!bytes) return bytes.error();
       auto texture = decode_texture(*bytes, fmt::format("{}: {}", file_.name, name));
       if (!texture) return texture.error();
+      texels_ += texture->texel_count();
+      if (texels_ > kMostTexels) {
+        return file_.error(name, "its pictures have more than 2^30 texels in all",
+                           "make some of them smaller");
+      }
       textures_.images.push_back(std::move(*texture));
+    }
+    const TransferSource source = source_of(file_.json, use);
+    for (const double value : source.matrix) {
+      if (std::abs(value) < kMostOfMatrix) continue;
+      return file_.error(place, "its KHR_texture_transform is out of range", "export it again");
     }
     const std::string path = use.where.to_string();  // "/materials/3/normalTexture"
     const std::size_t begin = path.find('/', std::string("/materials/").size());
     const auto material =
         static_cast<std::uint32_t>(std::stoul(path.substr(std::string("/materials/").size())));
-    textures_.uses.push_back({material + 1, path.substr(begin + 1), role_of(path), found->second,
-                              source_of(file_.json, use)});
+    textures_.uses.push_back(
+        {material + 1, path.substr(begin + 1), role_of(path), found->second, source});
     return Done{};
+  }
+
+  /// Where its bytes are: entries that name the same ones are one picture.
+  static std::string place_of(const Json& image) {
+    const Json* view = find_member(image, "bufferView");
+    const Json* uri = find_member(image, "uri");
+    return view != nullptr ? view->dump() : uri != nullptr ? uri->dump() : image.dump();
   }
 
   Result<std::string> bytes_of(const Json& image, const std::string& place) const {
@@ -135,10 +162,15 @@ class Reader {
     return read_file(file_.folder / *name);
   }
 
+  static constexpr std::size_t kMostTexels = std::size_t{1} << 30U;
+  static constexpr double kMostOfMatrix = 1e9;
+
   const GltfContents& contents_;
   const GltfFile& file_;
+  bool base_colors_alone_;
   ModelTextures textures_;
-  std::map<std::uint64_t, std::size_t> number_;  ///< of images
+  std::map<std::string, std::size_t> number_;  ///< of images, by their places
+  std::size_t texels_ = 0;
 };
 
 /// Calls visit(index) for each reference to an image, those of extensions of textures included.
@@ -154,9 +186,22 @@ void for_each_image_use(Json& json, Visit&& visit) {
   }
 }
 
+/// Does the file have a part that may name textures and images by numbers we do not know of?
+bool has_unknown_parts(const Json& json) {
+  const Json* extensions = find_member(json, "extensions");
+  if (extensions == nullptr || !extensions->is_object()) return false;
+  for (const auto& [name, part] : extensions->items()) {
+    const bool known = name == "KHR_lights_punctual" || name == "KHR_materials_variants" ||
+                       name == "KHR_xmp_json_ld";
+    if (!known) return true;
+  }
+  return false;
+}
+
 /// Textures that no material names any more keep their numbers, but let go of their pictures.
 void empty_unused_textures(Json& json, const std::set<std::uint64_t>& candidates,
                            const GltfContents& contents) {
+  if (has_unknown_parts(json)) return;
   std::set<std::uint64_t> used;
   for (const GltfTextureUse& use : texture_uses(contents)) {
     const auto now = integer_member(json[use.where], "index", 0);
@@ -171,7 +216,7 @@ void empty_unused_textures(Json& json, const std::set<std::uint64_t>& candidates
 
 /// Renumbers the images that are left. Not where an unknown part of the file may name images.
 void drop_unused_images(Json& json) {
-  if (json.contains("extensions") || !json.contains("images")) return;
+  if (has_unknown_parts(json) || !json.contains("images")) return;
   Json& images = json["images"];
   std::vector<bool> used(images.size());
   for_each_image_use(json, [&](Json& index) {
@@ -194,18 +239,21 @@ void drop_unused_images(Json& json) {
 
 }  // namespace
 
-Result<ModelTextures> read_gltf_textures(const GltfContents& contents) {
-  return Reader(contents).read();
+Result<ModelTextures> read_gltf_textures(const GltfContents& contents, bool base_colors_alone) {
+  return Reader(contents, base_colors_alone).read();
 }
 
 void replace_gltf_textures(const GltfContents& contents, std::span<const NewTexture> textures,
                            GltfEdit& edit) {
   const std::vector<GltfTextureUse> uses = uses_that_follow(contents);
+  const int set = std::stoi(contents.texcoord_name.substr(std::string("TEXCOORD_").size()));
   std::set<std::uint64_t> replaced;
   for (const NewTexture& made : textures) {
     if (made.uses.empty()) continue;
     const GltfTextureUse& first = uses[made.uses.front()];
-    Json texture = edit.json["textures"][first.texture];  // its sampler, name and extras
+    // Its sampler, which may be new since the file was read, its name and its extras.
+    const auto now = integer_member(edit.json[first.where], "index", first.texture);
+    Json texture = edit.json["textures"][now.value_or(first.texture)];
     texture.erase("extensions");
     texture["source"] = edit.add_image(made.name, made.png, "image/png");
     const std::size_t number = edit.json["textures"].size();
@@ -215,12 +263,14 @@ void replace_gltf_textures(const GltfContents& contents, std::span<const NewText
       Json& info = edit.json[uses[use].where];
       info["index"] = number;
       if (uses[use].transformed) remove_extension(info, kTransform);
+      // A transform may have named the UV set in its place.
+      info.erase("texCoord");
+      if (set != 0) info["texCoord"] = set;
     }
   }
   empty_unused_textures(edit.json, replaced, contents);
   drop_unused_images(edit.json);
-  const bool still = edit.json["materials"].dump().find(kTransform) != std::string::npos;
-  if (!still) unlist_extension(edit.json, kTransform);
+  unlist_extension(edit.json, kTransform);
 }
 
 }  // namespace wrapatlas

@@ -7,8 +7,8 @@
 
 namespace wrapatlas {
 
-/// Those that follow the loaded UVs, decoded. Errors: input.
-Result<ModelTextures> read_gltf_textures(const GltfContents& contents);
+/// Those that follow the loaded UVs, decoded; or base colours alone. Errors: input.
+Result<ModelTextures> read_gltf_textures(const GltfContents& contents, bool base_colors_alone);
 
 /// Puts new images in the place of those that they were made from: each use then names the new
 /// texture, without a transform. Images that nothing uses any more go. `textures` refer to the uses

@@ -2,10 +2,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "io/face_labels.h"
 #include "io/formats.h"
 #include "io/gltf_primitives.h"
+#include "io/gltf_scene.h"
 #include "io/gltf_shading.h"
 
 namespace wrapatlas {
@@ -30,9 +32,12 @@ std::vector<std::uint32_t> materials_of(const GltfContents& contents) {
   for (const GltfPrimitive& primitive : contents.primitives) {
     const Json& json = primitive_json(contents.file.json, primitive);
     const auto found = json.find("material");
-    const std::uint32_t label =
-        found != json.end() && found->is_number_unsigned() ? found->get<std::uint32_t>() + 1 : 0;
-    assign_label(labels, primitive.first_face, primitive.first_face + primitive.face_count, label);
+    const std::uint64_t known = array_member(contents.file.json, "materials").size();
+    std::uint64_t number = known;  // none
+    if (found != json.end()) number = as_integer(*found).value_or(known);
+    const std::uint64_t label = number < known ? number + 1 : 0;
+    assign_label(labels, primitive.first_face, primitive.first_face + primitive.face_count,
+                 static_cast<std::uint32_t>(label));
   }
   return labels;
 }
@@ -64,6 +69,9 @@ Result<Model> read_gltf(std::string bytes, bool binary, std::string_view name,
   model.face_material = materials_of(*contents);
   if (options.shading) {
     if (Status read = read_gltf_shading(*contents, model); !read) return read.error();
+  }
+  if (options.in_scene) {
+    if (Status placed = place_in_scene(*contents, model); !placed) return placed.error();
   }
   remark_on_textures(*contents, model.remarks);
   model.side_files = files_beside(contents->file);

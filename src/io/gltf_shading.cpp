@@ -25,30 +25,35 @@ Result<std::optional<GltfAccessor>> open_attribute(const GltfContents& contents,
   return usable ? std::optional(*accessor) : std::nullopt;
 }
 
-void read_normals(const GltfPrimitive& primitive, const GltfAccessor& accessor, Model& model) {
-  const Mesh& mesh = model.mesh;
-  model.corner_normal.resize(mesh.corner_count());
+/// Calls visit(corner, its three numbers) for the corners of a primitive.
+template <typename Visit>
+void for_each_corner(const GltfPrimitive& primitive, const GltfAccessor& accessor, const Mesh& mesh,
+                     Visit&& visit) {
   const std::uint32_t first = mesh.face_begin[primitive.first_face];
   const std::uint32_t end = mesh.face_begin[primitive.first_face + primitive.face_count];
   for (std::uint32_t c = first; c < end; ++c) {
     const char* element = accessor.element(mesh.corner_position[c] - primitive.first_position);
-    const Vec3 n{accessor.value(element, 0), accessor.value(element, 1),
-                 accessor.value(element, 2)};
-    const bool usable = std::abs(n.x) + std::abs(n.y) + std::abs(n.z) < kCoordinateLimit;
-    model.corner_normal[c] = usable ? unit(n) : Vec3{};
+    visit(c,
+          Vec3{accessor.value(element, 0), accessor.value(element, 1), accessor.value(element, 2)});
   }
 }
 
+void read_normals(const GltfPrimitive& primitive, const GltfAccessor& accessor, Model& model) {
+  model.corner_normal.resize(model.mesh.corner_count());
+  for_each_corner(primitive, accessor, model.mesh, [&](std::uint32_t c, const Vec3& n) {
+    const bool usable = std::abs(n.x) + std::abs(n.y) + std::abs(n.z) < kCoordinateLimit;
+    model.corner_normal[c] = usable ? unit(n) : Vec3{};
+  });
+}
+
 void read_colors(const GltfPrimitive& primitive, const GltfAccessor& accessor, Model& model) {
-  model.position_color.resize(model.mesh.positions.size(), {1, 1, 1});
-  for (std::size_t i = 0; i < accessor.count; ++i) {
-    const char* element = accessor.element(i);
-    for (std::size_t c = 0; c < 3; ++c) {
-      const double part = accessor.value(element, c);
-      model.position_color[primitive.first_position + i][c] =
-          static_cast<float>(part > 0 ? std::min(part, 1.0) : 0);
-    }
-  }
+  model.corner_color.resize(model.mesh.corner_count(), {1, 1, 1});
+  const auto part = [](double value) {
+    return static_cast<float>(value > 0 ? std::min(value, 1.0) : 0);
+  };
+  for_each_corner(primitive, accessor, model.mesh, [&](std::uint32_t c, const Vec3& color) {
+    model.corner_color[c] = {part(color.x), part(color.y), part(color.z)};
+  });
 }
 
 }  // namespace

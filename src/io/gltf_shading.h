@@ -5,7 +5,7 @@
 
 namespace wrapatlas {
 
-/// Fills Model::corner_normal (NORMAL) and Model::position_color (COLOR_0; white where a primitive
+/// Fills Model::corner_normal (NORMAL) and Model::corner_color (COLOR_0; white where a primitive
 /// has none) of a model whose mesh is there. Errors: input.
 Status read_gltf_shading(const GltfContents& contents, Model& model);
 

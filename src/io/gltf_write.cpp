@@ -31,8 +31,8 @@ class GltfSource : public Model::Source {
     return save(path, mesh, atlas, {});
   }
 
-  [[nodiscard]] Result<ModelTextures> textures() const override {
-    return read_gltf_textures(*contents_);
+  [[nodiscard]] Result<ModelTextures> textures(bool base_colors_alone) const override {
+    return read_gltf_textures(*contents_, base_colors_alone);
   }
 
   Status save(const std::filesystem::path& path, const Mesh& mesh, const AtlasMesh& atlas,

@@ -119,7 +119,7 @@ Result<Model> load_model_bytes(std::string bytes, FileFormat format, std::string
   return model;
 }
 
-Result<ModelTextures> Model::Source::textures() const {
+Result<ModelTextures> Model::Source::textures(bool) const {
   return Error{ErrorKind::usage, "", "textures are read from glTF and OBJ alone",
                "export it as .glb"};
 }
@@ -130,8 +130,8 @@ Status Model::Source::save(const std::filesystem::path& path, const Mesh&, const
                "export the model as .glb"};
 }
 
-Result<ModelTextures> load_textures(const Model& model) {
-  if (model.source) return model.source->textures();
+Result<ModelTextures> load_textures(const Model& model, bool base_colors_alone) {
+  if (model.source) return model.source->textures(base_colors_alone);
   return Error{ErrorKind::usage, "", "this format has no textures", "export it as .glb"};
 }
 

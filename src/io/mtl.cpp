@@ -20,7 +20,7 @@ bool names_picture(std::string_view keyword) {
   const std::string key = lower(keyword);
   if (key == "map_aat") return false;  // a switch
   return key.starts_with("map_") || key == "bump" || key == "disp" || key == "decal" ||
-         key == "norm";
+         key == "norm" || key == "refl";
 }
 
 /// The words that follow an option: a fixed number, or up to three numbers.
@@ -110,6 +110,7 @@ MtlMap map_of(std::string_view keyword, ObjWords words, std::string_view materia
   map.options = {after, static_cast<std::size_t>(map.picture.data() - after)};
   map.material = material;
   map.source = source_of(scale, offset, clamp);
+  map.follows_uvs = lower(keyword) != "refl";
   return map;
 }
 
@@ -149,14 +150,15 @@ std::vector<MtlMap> read_mtl_maps(std::string_view bytes) {
 }
 
 std::string replace_mtl_pictures(std::string_view bytes,
-                                 const std::map<std::size_t, std::string>& pictures) {
+                                 const std::map<std::size_t, std::string>& pictures,
+                                 const std::set<std::size_t>& whole) {
   const std::vector<MtlMap> maps = read_mtl_maps(bytes);
   std::string result;
   const char* copied = bytes.data();
   for (const auto& [number, name] : pictures) {
     const MtlMap& map = maps[number];
     result.append(copied, map.options.data());
-    result += kept_options(map.options);
+    result += whole.count(number) != 0 ? kept_options(map.options) : std::string(map.options);
     result += name;
     copied = map.picture.data() + map.picture.size();
   }

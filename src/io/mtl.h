@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <map>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,15 +19,16 @@ struct MtlMap {
   std::string_view picture;   ///< the file's name, as it is written
   std::string_view material;  ///< of the newmtl before it
   TransferSource source;      ///< as the options say it is read; its texture is null
+  bool follows_uvs = true;    ///< not so: refl, which is looked up by direction
 };
 
-/// In the order of the file. Pictures that are no matter of UVs (refl) are left out, as is what
-/// stands before the first newmtl.
+/// In the order of the file, without what stands before the first newmtl.
 std::vector<MtlMap> read_mtl_maps(std::string_view bytes);
 
-/// The same file with other pictures' names: those of `pictures`, by the number of their map. The
-/// options that move, scale or clamp a picture go, the others stay.
+/// The same file with other pictures' names: those of `pictures`, by the number of their map. Of
+/// the numbers in `whole` the picture is all that is read: options that move, scale or clamp go.
 std::string replace_mtl_pictures(std::string_view bytes,
-                                 const std::map<std::size_t, std::string>& pictures);
+                                 const std::map<std::size_t, std::string>& pictures,
+                                 const std::set<std::size_t>& whole);
 
 }  // namespace wrapatlas

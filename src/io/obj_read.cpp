@@ -65,8 +65,11 @@ class ObjReader {
     }
   }
   void move_colors_to(Model& model) {
-    if (!colors_.empty()) colors_.resize(model.mesh.positions.size(), {1, 1, 1});
-    model.position_color = std::move(colors_);
+    if (colors_.empty()) return;
+    colors_.resize(model.mesh.positions.size(), {1, 1, 1});
+    for (const std::uint32_t i : model.mesh.corner_position) {
+      model.corner_color.push_back(colors_[i]);
+    }
   }
   void move_materials_to(Model& model, ObjSource& source) {
     model.face_material = std::move(face_material_);
@@ -261,6 +264,7 @@ Result<Model> read_obj(std::string bytes, std::string_view name, const std::file
   reader.move_colors_to(model);
   model.format = FileFormat::obj;
   source->folder = base;
+  model.side_files = source->side_files();
   source->bytes = std::move(bytes);
   model.source = std::move(source);
   return model;

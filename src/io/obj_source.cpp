@@ -6,7 +6,7 @@
 #include <cctype>
 #include <cmath>
 #include <map>
-#include <optional>
+#include <set>
 
 #include "io/file.h"
 #include "io/mtl.h"
@@ -41,6 +41,10 @@ fs::path find_beside(const fs::path& folder, const std::string& name) {
     if (is_file(path)) return path;
   }
   return folder / slashed;
+}
+
+fs::path picture_path(const fs::path& library, const MtlMap& map) {
+  return find_beside(library.parent_path(), std::string(map.picture));
 }
 
 /// A line may name several, and one name may hold blanks.
@@ -84,12 +88,29 @@ std::vector<Use> uses_of(const std::vector<Library>& libraries,
     const std::vector<MtlMap> maps = read_mtl_maps(libraries[library].bytes);
     for (std::size_t map = 0; map < maps.size(); ++map) {
       const auto found = std::find(materials.begin(), materials.end(), maps[map].material);
-      if (found == materials.end()) continue;
+      if (found == materials.end() || !maps[map].follows_uvs) continue;
       const auto material = static_cast<std::uint32_t>(found - materials.begin());
       uses.push_back({library, map, material, maps[map]});
     }
   }
   return uses;
+}
+
+/// What its pictures are called as seen from another folder, where that is something else.
+std::map<std::size_t, std::string> names_from(const fs::path& folder, const Library& library) {
+  std::map<std::size_t, std::string> names;
+  std::error_code code;
+  const auto absolute = [&](const fs::path& path) {
+    return fs::weakly_canonical(path.empty() ? "." : path, code);
+  };
+  const fs::path there = absolute(folder);
+  if (there == absolute(library.path.parent_path())) return names;
+  const std::vector<MtlMap> maps = read_mtl_maps(library.bytes);
+  for (std::size_t i = 0; i < maps.size(); ++i) {
+    const fs::path picture = picture_path(library.path, maps[i]);
+    if (is_file(picture)) names[i] = absolute(picture).lexically_proximate(there).generic_string();
+  }
+  return names;
 }
 
 /// Are most texels unit vectors that point up? What is called a bump map often is a normal map.
@@ -122,14 +143,25 @@ Status ObjSource::save(const fs::path& path, const Mesh& mesh, const AtlasMesh& 
                     [&](const PutBytes& put) { return rewrite_obj(bytes, mesh, atlas, {}, put); });
 }
 
-Result<ModelTextures> ObjSource::textures() const {
+std::vector<fs::path> ObjSource::side_files() const {
+  std::vector<fs::path> files;
+  for (const fs::path& path : library_paths(*this)) {
+    files.push_back(path);
+    const auto library = read_file(path);
+    if (!library) continue;
+    for (const MtlMap& map : read_mtl_maps(*library)) files.push_back(picture_path(path, map));
+  }
+  return files;
+}
+
+Result<ModelTextures> ObjSource::textures(bool base_colors_alone) const {
   const auto libraries = read_libraries(*this);
   if (!libraries) return libraries.error();
   ModelTextures result;
   std::map<fs::path, std::size_t> known;
   for (const Use& use : uses_of(*libraries, materials)) {
-    const fs::path path =
-        find_beside((*libraries)[use.library].path.parent_path(), std::string(use.what.picture));
+    if (base_colors_alone && !is_base_color(use.what.keyword)) continue;
+    const fs::path path = picture_path((*libraries)[use.library].path, use.what);
     const auto [found, is_new] = known.try_emplace(path, result.images.size());
     if (is_new) {
       auto texture = load_texture(path);
@@ -157,17 +189,14 @@ Status ObjSource::save(const fs::path& path, const Mesh& mesh, const AtlasMesh& 
   const auto beside = [&](const std::string& ending) {
     return fs::path(path).replace_filename(path.stem().string() + ending);
   };
-  std::vector<std::map<std::size_t, std::string>> pictures(libraries->size());
+  std::vector<std::map<std::size_t, std::string>> pictures;
+  for (const Library& one : *libraries) pictures.push_back(names_from(path.parent_path(), one));
+  std::vector<std::set<std::size_t>> whole(libraries->size());
+  const std::vector<fs::path> inputs = side_files();
   const auto refuse_input = [&](const fs::path& output) -> Status {
-    bool is_input = false;
-    for (const Library& library : *libraries) {
-      is_input = is_input || same_file(library.path, output);
-    }
-    for (const Use& use : uses) {
-      is_input = is_input || same_file(find_beside((*libraries)[use.library].path.parent_path(),
-                                                   std::string(use.what.picture)),
-                                       output);
-    }
+    const bool is_input = std::any_of(inputs.begin(), inputs.end(), [&](const fs::path& input) {
+      return same_file(input, output);
+    });
     if (!is_input) return Done{};
     return Error{ErrorKind::usage, output.string(),
                  "it would be written over, and is a file of "
@@ -180,13 +209,14 @@ Status ObjSource::save(const fs::path& path, const Mesh& mesh, const AtlasMesh& 
     if (Status ok = write_file(picture, texture.png); !ok) return ok;
     for (const std::size_t use : texture.uses) {
       pictures[uses[use].library][uses[use].map] = picture.filename().string();
+      whole[uses[use].library].insert(uses[use].map);
     }
   }
   const fs::path library = beside(".mtl");
   if (Status ok = refuse_input(library); !ok) return ok;
   std::string all;
   for (std::size_t i = 0; i < libraries->size(); ++i) {
-    all += replace_mtl_pictures((*libraries)[i].bytes, pictures[i]);
+    all += replace_mtl_pictures((*libraries)[i].bytes, pictures[i], whole[i]);
     if (!all.empty() && all.back() != '\n') all += '\n';
   }
   if (Status ok = write_file(library, all); !ok) return ok;

@@ -12,7 +12,9 @@ namespace wrapatlas {
 struct ObjSource final : Model::Source {
   Status save(const std::filesystem::path& path, const Mesh& mesh,
               const AtlasMesh& atlas) const override;
-  [[nodiscard]] Result<ModelTextures> textures() const override;
+  [[nodiscard]] Result<ModelTextures> textures(bool base_colors_alone) const override;
+  /// Its material libraries and their pictures, as far as they can be read.
+  [[nodiscard]] std::vector<std::filesystem::path> side_files() const;
   /// Beside the model go its materials as one library, and the pictures: "a.obj", "a.mtl",
   /// "a-map_Kd.png".
   Status save(const std::filesystem::path& path, const Mesh& mesh, const AtlasMesh& atlas,

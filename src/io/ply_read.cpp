@@ -113,8 +113,8 @@ class PlyReader {
     return result;
   }
 
-  /// Linear light, of the vertices that were read; what is no number is black.
-  [[nodiscard]] std::vector<std::array<float, 3>> colors() const {
+  /// Linear light, per corner; what is no number is black.
+  [[nodiscard]] std::vector<std::array<float, 3>> colors(const Mesh& mesh) const {
     std::vector<std::array<float, 3>> result;
     if (roles_.red < 0) return result;
     const PlyElement& vertex = header_.elements[roles_.vertex];
@@ -124,11 +124,11 @@ class PlyReader {
       const PlyType type = vertex.properties[property].type;
       if (!ply_is_float(type)) most[c] = ply_max(type);
     }
-    result.reserve(colors_.size());
-    for (const auto& color : colors_) {
+    result.reserve(mesh.corner_count());
+    for (const std::uint32_t i : mesh.corner_position) {
       auto& linear = result.emplace_back();
       for (std::size_t c = 0; c < 3; ++c) {
-        const double value = color[c] / most[c];
+        const double value = colors_[i][c] / most[c];
         linear[c] = srgb_to_linear(static_cast<float>(value > 0 ? std::min(value, 1.0) : 0));
       }
     }
@@ -290,7 +290,7 @@ Result<Model> read_ply(std::string bytes, std::string_view name, bool shading) {
   Result<Mesh> mesh = reader.read();
   if (!mesh) return mesh.error();
   Model model;
-  model.position_color = reader.colors();
+  model.corner_color = reader.colors(*mesh);
   model.corner_normal = reader.normals(*mesh);
   model.format = FileFormat::ply;
   model.mesh = *std::move(mesh);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "texture/texel_place.h"
+
 namespace wrapatlas {
 namespace {
 
@@ -13,9 +15,7 @@ struct Quad {
 };
 
 Quad texels_at(double place, int count, bool wraps) {
-  double texel = place * count - 0.5;
-  if (wraps) texel -= std::floor(texel / count) * count;
-  texel = std::clamp(texel, -1.0, double(count));
+  const double texel = texel_place(place, count, wraps);
   const int first = static_cast<int>(std::floor(texel));
   const double t = texel - first;
   Quad quad;

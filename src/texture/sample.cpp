@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "texture/texel_place.h"
 #include "wrapatlas/texture.h"
 
 namespace wrapatlas {
@@ -13,9 +14,7 @@ struct Pair {
 };
 
 Pair texels_at(double place, int count, bool wraps) {
-  double texel = place * count - 0.5;
-  if (wraps) texel -= std::floor(texel / count) * count;  // exact enough also far away
-  texel = std::clamp(texel, wraps ? 0.0 : -1.0, double(count));
+  const double texel = texel_place(place, count, wraps);
   const int first = static_cast<int>(std::floor(texel));
   const auto share = static_cast<float>(texel - first);
   if (wraps) return {first % count, (first + 1) % count, share};
@@ -42,7 +41,7 @@ TextureValue sample_bilinear(const Texture& texture, Vec2 uv, Wrap wrap) {
 
 TextureValue sample_trilinear(const MipMaps& maps, Vec2 uv, double level, Wrap wrap) {
   const auto last = static_cast<double>(maps.levels.size() - 1);
-  const double at = std::clamp(level, 0.0, last);
+  const double at = level > 0 ? std::min(level, last) : 0;  // 0 too if it is no number
   const auto first = static_cast<std::size_t>(at);
   const auto share = static_cast<float>(at - static_cast<double>(first));
   TextureValue value = sample_bilinear(maps.levels[first], uv, wrap);

@@ -3,6 +3,7 @@
 import math
 import unittest
 
+import gltf_maker
 import support
 from png_files import read_png, rgb_png
 
@@ -75,6 +76,25 @@ class Render(support.CommandTest):
         self.assertEqual(done.returncode, 0)
         self.assertIn("drawn without its textures", done.stderr)
         self.assertIn("none.png", done.stderr)
+
+    def test_does_not_write_over_its_own_pictures(self):
+        self.write("own.obj", "mtllib own.mtl\nusemtl a\n" + SQUARE)
+        self.write("own.mtl", "newmtl a\nmap_Kd halves.png\n")
+        before = self.path("halves.png").read_bytes()
+        self.refuse(2, ("overwrite", "halves.png"), "render", "own.obj", "-o", "halves.png")
+        self.assertEqual(self.path("halves.png").read_bytes(), before)
+
+    def test_nodes_place_their_meshes(self):
+        """What is twice as high has another shape on the picture."""
+        plain = gltf_maker.plain()
+        covered = []
+        for scale in (1, 2):
+            for node in plain.json["nodes"]:
+                node["scale"] = [1, scale, 1]
+            self.write("scene.glb", plain.glb())
+            report = self.render("--azimuth", 0, "--size", 100, source="scene.glb")
+            covered.append(report["covered"])
+        self.assertNotEqual(covered[0], covered[1])
 
     def test_views_side_by_side(self):
         report = self.render("--size", 40, "--views", 3)

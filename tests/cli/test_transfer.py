@@ -65,6 +65,40 @@ class Transfer(support.CommandTest):
                                  "--quiet", *more)
         return report["psnr"]
 
+    def as_drawn(self, before, after):
+        """PSNR of the two, each with the textures that it names."""
+        view = ("--shade", "none", "--size", 128, "--quiet")
+        self.report("render", before, "-o", "before.png", *view)
+        return self.report("render", after, "-o", "after.png", *view, "--compare",
+                           "before.png")["psnr"]
+
+    def test_a_turned_texture(self):
+        maker = self.maker(transform=True)
+        info = maker.json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"]
+        info["extensions"]["KHR_texture_transform"] = {"rotation": 0.7, "scale": [0.5, 0.8],
+                                                       "offset": [0.1, 0.2]}
+        self.write("a.glb", maker.glb())
+        self.transfer("a.glb", "b.glb")
+        self.assertGreater(self.as_drawn("a.glb", "b.glb"), 35)
+
+    def test_uses_that_repeat_otherwise_are_apart(self):
+        """Base colour and emission: one picture, but one of them clamps."""
+        maker = self.maker(emissiveTexture={"index": 1})
+        maker.json["samplers"].append({"wrapS": 10497, "wrapT": 10497})
+        maker.json["textures"].append({"source": 0,
+                                       "sampler": len(maker.json["samplers"]) - 1})
+        self.write("a.glb", maker.glb())
+        self.assertEqual(self.transfer("a.glb", "b.glb")["images"], 2)
+
+    def test_variants_are_refused(self):
+        maker = self.maker()
+        maker.json["extensionsUsed"] = ["KHR_materials_variants"]
+        maker.json["extensions"] = {"KHR_materials_variants": {"variants": [{"name": "v"}]}}
+        maker.json["meshes"][0]["primitives"][0]["extensions"] = {
+            "KHR_materials_variants": {"mappings": [{"material": 0, "variants": [0]}]}}
+        self.write("a.glb", maker.glb())
+        self.refuse(3, ("a.glb", "KHR_materials_variants"), "transfer", "a.glb", "-o", "b.glb")
+
     def test_looks_as_before(self):
         self.write("a.glb", self.maker().glb())
         report = self.transfer("a.glb", "b.glb")
@@ -74,7 +108,8 @@ class Transfer(support.CommandTest):
         self.assertGreater(self.likeness("a.glb", "b.glb", "uv"), 40)
         gltf, _ = parts(self.path("b.glb"))
         self.assertEqual(len(gltf["images"]), 1)
-        self.assertEqual(gltf["samplers"][gltf["textures"][-1]["sampler"]],
+        used = gltf["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"]["index"]
+        self.assertEqual(gltf["samplers"][gltf["textures"][used]["sampler"]],
                          {"wrapS": 10497, "wrapT": 10497})
         self.assertEqual(gltf["nodes"][0]["extras"], {"kept": 1})
 
@@ -93,6 +128,7 @@ class Transfer(support.CommandTest):
     def test_a_texture_transform_goes_into_the_texture(self):
         self.write("a.glb", self.maker(transform=True).glb())
         self.transfer("a.glb", "b.glb")
+        self.assertGreater(self.as_drawn("a.glb", "b.glb"), 40)
         gltf, _ = parts(self.path("b.glb"))
         self.assertNotIn("extensions", gltf["materials"][0]["pbrMetallicRoughness"]
                          ["baseColorTexture"])
@@ -209,6 +245,13 @@ class Transfer(support.CommandTest):
         self.refuse(3, ("a.mtl",), "transfer", "a.obj", "-o", "b.obj")
         self.obj(library="newmtl a b\nmap_Kd C:\\work\\pic ture.png\n")
         self.transfer("a.obj", "b.obj")
+
+    def test_obj_in_another_folder(self):
+        self.path("out").mkdir()
+        self.obj(library="newmtl a b\nmap_Kd -clamp on pic ture.png\nrefl pic ture.png\n")
+        self.transfer("a.obj", "out/b.obj")
+        self.assertEqual(self.path("out/b.mtl").read_text(),
+                         "newmtl a b\nmap_Kd b-map_Kd.png\nrefl ../pic ture.png\n")
 
     def test_obj_does_not_write_over_its_own_files(self):
         self.obj(name="b.mtl")

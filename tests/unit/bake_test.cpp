@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -172,6 +173,86 @@ TEST(Bake, LooksBothWaysAndForTheNearestPoint) {
       EXPECT_NEAR(near->maps[0].values[i], far->maps[0].values[i], 1e-6);
     }
   }
+}
+
+/// A sheet over [0, 1]^2 at a height, facing up or down.
+void add_layer(Mesh& mesh, double z, bool up) {
+  const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+  for (const Vec2 p : {Vec2{-1, -1}, {2, -1}, {2, 2}, {-1, 2}})
+    mesh.positions.push_back({p.x, p.y, z});
+  for (std::uint32_t i = 0; i < 4; ++i) {
+    mesh.corner_position.push_back(first + (up ? i : 3 - i));
+    mesh.corner_texcoord.push_back(kNone);
+  }
+  mesh.face_begin.push_back(static_cast<std::uint32_t>(mesh.corner_position.size()));
+}
+
+TEST(Bake, RaysGoThroughTheBackOfAWall) {
+  const Mesh low = mapped_sheet(1);
+  Mesh wall;
+  add_layer(wall, 0.05, false);
+  add_layer(wall, 0.1, true);
+  const BakedMap maps[] = {BakedMap::object_normals, BakedMap::positions};
+  BakeOptions options = small(8);
+  options.distance = 0.3;
+  const auto result = bake(low, source_of(wall), maps, options);
+  ASSERT_TRUE(result);
+  EXPECT_EQ(result->texels_nearest, 0U);
+  EXPECT_NEAR(direction_at(result->maps[0], 4, 4).z, 1, 1e-6);
+  // Farther than rays look, the nearest point is still one of a face that looks the same way.
+  options.distance = 0.01;
+  const auto far = bake(low, source_of(wall), maps, options);
+  ASSERT_TRUE(far);
+  EXPECT_EQ(far->texels_nearest, 64U);
+  EXPECT_NEAR(direction_at(far->maps[0], 4, 4).z, 1, 1e-6);
+}
+
+TEST(Bake, TheDistanceDoesNotDependOnWhichCornerIsFirst) {
+  Mesh low = mapped_sheet(1);
+  low.positions[2].z = 0.5;
+  Mesh high;
+  add_layer(high, 0, true);
+  const BakedMap maps[] = {BakedMap::positions};
+  for (int turn = 0; turn < 3; ++turn) {
+    const auto result = bake(low, source_of(high), maps, small(8));
+    ASSERT_TRUE(result);
+    EXPECT_NEAR(result->distance, 1, 1e-6);
+    for (std::uint32_t f = 0; f < low.face_count(); ++f) {
+      for (auto* indices : {&low.corner_position, &low.corner_texcoord}) {
+        const auto begin = indices->begin() + low.face_begin[f];
+        std::rotate(begin, begin + 1, indices->begin() + low.face_begin[f + 1]);
+      }
+    }
+  }
+}
+
+TEST(Bake, RefusesUvsWithoutBoundsAndMeshesWorldsApart) {
+  const BakedMap maps[] = {BakedMap::positions};
+  const Mesh high = test::sheet(2);
+  for (const double reach : {1e5, 1e8, 1e25}) {
+    Mesh low = mapped_sheet(1);
+    for (Vec2& uv : low.texcoords) uv = reach * uv;
+    for (const Wrap wrap : {Wrap::uv, Wrap::u}) {
+      BakeOptions options = small(16);
+      options.wrap = wrap;
+      const auto result = bake(low, source_of(high), maps, options);
+      ASSERT_FALSE(result);
+      EXPECT_EQ(result.error().kind, ErrorKind::input);
+    }
+    BakeOptions options = small(16);
+    options.wrap = Wrap::none;  // one large triangle over all texels
+    EXPECT_TRUE(bake(low, source_of(high), maps, options));
+  }
+  Mesh outside = mapped_sheet(1, {5, 5});
+  BakeOptions options = small(16);
+  options.wrap = Wrap::none;
+  EXPECT_FALSE(bake(outside, source_of(high), maps, options));
+  Mesh away = mapped_sheet(1);
+  for (Vec3& p : away.positions) p.z = 1e25;
+  EXPECT_FALSE(bake(away, source_of(high), maps, small(16)));
+  Mesh speck = high;
+  for (Vec3& p : speck.positions) p = 1e-20 * p;
+  EXPECT_FALSE(bake(mapped_sheet(1), source_of(speck), maps, small(16)));
 }
 
 TEST(Bake, OcclusionInAPit) {

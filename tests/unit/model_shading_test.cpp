@@ -28,24 +28,24 @@ TEST(ModelShading, OfAnObj) {
   EXPECT_EQ(model.corner_normal[1], Vec3{});  // no vector
   EXPECT_LT(length(model.corner_normal[2] - Vec3{0, 0.6, 0.8}), 1e-12);
   EXPECT_EQ(model.corner_normal[3], Vec3{});  // none
-  ASSERT_EQ(model.position_color.size(), 4U);
-  EXPECT_EQ(model.position_color[0], (std::array<float, 3>{1, srgb_to_linear(0.5F), 0}));
-  EXPECT_EQ(model.position_color[1], (std::array<float, 3>{1, 1, 1}));
-  EXPECT_EQ(model.position_color[2], (std::array<float, 3>{0, 0, 1}));
-  EXPECT_EQ(model.position_color[3], (std::array<float, 3>{1, 1, 1}));  // 7 is a weight
+  ASSERT_EQ(model.corner_color.size(), 6U);
+  EXPECT_EQ(model.corner_color[0], (std::array<float, 3>{1, srgb_to_linear(0.5F), 0}));
+  EXPECT_EQ(model.corner_color[1], (std::array<float, 3>{1, 1, 1}));
+  EXPECT_EQ(model.corner_color[2], (std::array<float, 3>{0, 0, 1}));
+  EXPECT_EQ(model.corner_color[3], (std::array<float, 3>{1, 1, 1}));  // 7 is a weight
 }
 
 TEST(ModelShading, OnlyIfAskedFor) {
   const auto model = load_model_bytes(kObj, FileFormat::obj, "test", ".");
   ASSERT_TRUE(model);
   EXPECT_TRUE(model->corner_normal.empty());
-  EXPECT_TRUE(model->position_color.empty());
+  EXPECT_TRUE(model->corner_color.empty());
 }
 
 TEST(ModelShading, WithoutAnyThereIsNone) {
   const Model model = with_shading("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", FileFormat::obj);
   EXPECT_TRUE(model.corner_normal.empty());
-  EXPECT_TRUE(model.position_color.empty());
+  EXPECT_TRUE(model.corner_color.empty());
 }
 
 TEST(ModelShading, OfAPly) {
@@ -60,8 +60,8 @@ TEST(ModelShading, OfAPly) {
   EXPECT_LT(length(model.corner_normal[0] - Vec3{0.6, 0, 0.8}), 1e-12);
   EXPECT_EQ(model.corner_normal[1], Vec3{});
   EXPECT_EQ(model.corner_normal[2], (Vec3{0, 0, 1}));
-  ASSERT_EQ(model.position_color.size(), 3U);
-  EXPECT_EQ(model.position_color[0], (std::array<float, 3>{1, 0, srgb_to_linear(0.2F)}));
+  ASSERT_EQ(model.corner_color.size(), 3U);
+  EXPECT_EQ(model.corner_color[2], (std::array<float, 3>{1, 0, srgb_to_linear(0.2F)}));
 }
 
 TEST(ModelShading, APlyWithoutBlueHasNoColours) {
@@ -71,7 +71,7 @@ TEST(ModelShading, APlyWithoutBlueHasNoColours) {
       "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
       "0 0 0 255 0\n1 0 0 0 0\n0 1 0 255 255\n3 2 1 0\n",
       FileFormat::ply);
-  EXPECT_TRUE(model.position_color.empty());
+  EXPECT_TRUE(model.corner_color.empty());
   EXPECT_TRUE(model.corner_normal.empty());
 }
 

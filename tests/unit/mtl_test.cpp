@@ -11,12 +11,15 @@ TEST(Mtl, MapsAndTheirMaterials) {
       "newmtl a b\n  map_Kd  wood grain.png  # note\r\nrefl -type sphere sky.png\nmap_aat on\n"
       "newmtl c\nbump -bm 2 -s 2 3 hill.png\nmap_Kd\n";
   const auto maps = read_mtl_maps(text);
-  ASSERT_EQ(maps.size(), 2U);
+  ASSERT_EQ(maps.size(), 3U);
+  EXPECT_EQ(maps[1].picture, "sky.png");
+  EXPECT_FALSE(maps[1].follows_uvs);
+  EXPECT_TRUE(maps[0].follows_uvs);
   EXPECT_EQ(maps[0].material, "a b");
   EXPECT_EQ(maps[0].keyword, "map_Kd");
   EXPECT_EQ(maps[0].picture, "wood grain.png");
-  EXPECT_EQ(maps[1].material, "c");
-  EXPECT_EQ(maps[1].picture, "hill.png");
+  EXPECT_EQ(maps[2].material, "c");
+  EXPECT_EQ(maps[2].picture, "hill.png");
 }
 
 TEST(Mtl, OptionsSayHowAPictureIsRead) {
@@ -40,9 +43,12 @@ TEST(Mtl, OtherPicturesKeepTheRestOfTheFile) {
   const std::string text =
       "# by hand\nnewmtl a\nKd 1 0 0\nmap_Kd -s 2 2 -bm 1 -clamp on old one.png # first\r\n"
       "bump hill.png";
-  EXPECT_EQ(replace_mtl_pictures(text, {{0, "new.png"}, {1, "b.png"}}),
+  EXPECT_EQ(replace_mtl_pictures(text, {{0, "new.png"}, {1, "b.png"}}, {0}),
             "# by hand\nnewmtl a\nKd 1 0 0\nmap_Kd -bm 1 new.png # first\r\nbump b.png");
-  EXPECT_EQ(replace_mtl_pictures(text, {}), text);
+  EXPECT_EQ(replace_mtl_pictures(text, {}, {}), text);
+  // A picture that only has another name now stays where it is on the surface.
+  EXPECT_EQ(replace_mtl_pictures("newmtl a\nmap_Kd -s 2 2 a.png\n", {{0, "../a.png"}}, {}),
+            "newmtl a\nmap_Kd -s 2 2 ../a.png\n");
 }
 
 }  // namespace

@@ -56,7 +56,7 @@ TEST_P(TexelSamplesTest, AreThoseOfTheNearestTriangle) {
       for (std::size_t i = 0; i < band.size(); ++i) {
         const int columns = kWidth * across;
         const double x = (double(i % columns) + 0.5) / across;
-        const double y = (double(i / columns) + 0.5) / across + double(b) * TexelSamples::kBandRows;
+        const double y = (double(i / columns) + 0.5) / across + double(b) * samples.rows_per_band();
         double least = 1e9;
         for (std::uint32_t t = 0; t < mesh.face_count(); ++t) {
           for (int sx = -3; sx <= 3; ++sx) {
@@ -96,7 +96,7 @@ TEST(TexelSamples, WeightsLeadToTheSample) {
       Vec2 p;
       for (std::size_t k = 0; k < 3; ++k) p = p + band[i].weights[k] * corner[k];
       EXPECT_NEAR(p.x, (double(i % 80) + 0.5) / 2, 1e-9);
-      EXPECT_NEAR(p.y, (double(i / 80) + 0.5) / 2 + double(b) * TexelSamples::kBandRows, 1e-9);
+      EXPECT_NEAR(p.y, (double(i / 80) + 0.5) / 2 + double(b) * samples.rows_per_band(), 1e-9);
       ++seen;
     }
   }

@@ -80,7 +80,7 @@ void for_each_texel(const Mesh& after, int side, bool down, Visit&& visit) {
         const std::size_t corner = 3 * std::size_t{band[i].triangle} + k;
         p = p + band[i].weights[k] * triangles.positions[triangles.corner_position[corner]];
       }
-      const std::size_t texel = b * TexelSamples::kBandRows * std::size_t(side) + i;
+      const std::size_t texel = b * samples.rows_per_band() * std::size_t(side) + i;
       visit(int(texel % std::size_t(side)), int(texel / std::size_t(side)), Vec2{p.x, p.y});
       ++seen;
     }
@@ -162,7 +162,8 @@ TEST(Transfer, NormalsPointWhereTheyDid) {
       TransferOptions options = of_size(48, down);
       const TransferTarget target{TextureRole::normals, 3, {{&texture}}};
       const auto made = moved(before, after, target, options);
-      options.keep_tangents = true;
+      const std::vector<std::uint8_t> keeps(before.face_count(), 1);
+      options.keeps_tangents = keeps;
       const auto kept = moved(before, after, target, options);
       ASSERT_TRUE(made && kept);
       for_each_texel(after, 48, down, [&](int x, int y, Vec2) {

@@ -84,7 +84,7 @@ pictures = [
     wrapatlas.render(atlas, **view),
     wrapatlas.render(atlas, normal_map=baking.image, **view),
 ]
-side_by_side = np.concatenate(pictures, axis=1)
+side_by_side = np.concatenate(pictures, axis=1).view(wrapatlas.Picture)
 side_by_side.save(folder / "models.png")
 side_by_side
 

@@ -172,9 +172,7 @@ void bind_mesh(nb::module_& module) {
           "v_points_down", [](const PyMesh& m) { return m.model->v_points_down; },
           "v = 0 is the top row of a texture: meshes loaded from glTF, and what is made of them")
       .def("_triangulated", &triangulate)
-      .def("save", &save, nb::arg("path"),
-           "Writes .obj, .ply, .gltf or .glb. A loaded mesh keeps what else its file held, in its "
-           "own format. OSError if it cannot be written.")
+      .def("_save", &save, nb::arg("path"))
       .def_prop_ro("_has_space", [](const PyMesh& m) { return m.has_space; });
   module.def("mesh_from_arrays", &from_arrays, nb::arg("positions").none(), nb::arg("faces"),
              nb::arg("uv").none(), nb::arg("uv_faces").none(), nb::arg("objects").none());

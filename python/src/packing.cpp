@@ -159,6 +159,7 @@ View<std::uint32_t, 2> faces(const PackedMesh& packed) {
 }
 
 constexpr auto kInside = nb::rv_policy::reference_internal;
+constexpr auto kOwn = nb::rv_policy::automatic;  // arrays that own their memory
 
 void bind_arrays(nb::class_<PackedMesh>& packing) {
   packing
@@ -203,7 +204,7 @@ void bind_arrays(nb::class_<PackedMesh>& packing) {
           "face_chart", [](const PackedMesh& p) { return view_of(p->charts.face_chart); }, kInside,
           "Per face of the source (uint32) its chart; 4294967295 without UVs")
       .def_prop_ro(
-          "placements", &transforms,
+          "placements", &transforms, kOwn,
           "(charts, 2, 3) float64: texel = placement @ (u, v, 1), with u, v those that were "
           "packed")
       .def_prop_ro(
@@ -211,15 +212,15 @@ void bind_arrays(nb::class_<PackedMesh>& packing) {
           [](const PackedMesh& p) {
             return per_chart<double>(p, [&](auto i) { return p->packing.placements[i].angle; });
           },
-          "(charts,) float64: radians, counter-clockwise")
+          kOwn, "(charts,) float64: radians, counter-clockwise")
       .def_prop_ro(
           "chart_pages",
           [](const PackedMesh& p) {
             return per_chart<std::int32_t>(p,
                                            [&](auto i) { return p->packing.placements[i].page; });
           },
-          "(charts,) int32, from 0 on")
-      .def_prop_ro("_wraps", &wraps)
+          kOwn, "(charts,) int32, from 0 on")
+      .def_prop_ro("_wraps", &wraps, kOwn)
       .def_prop_ro(
           "face_stretch",
           [](const PackedMesh& p) {
@@ -304,9 +305,7 @@ void bind_packing(nb::module_& module) {
       .def_prop_ro("_mesh", &new_mesh, "The mesh with its new UVs; a new one each time")
       .def_prop_ro(
           "_source", [](const PackedMesh& p) { return p->source; }, "The mesh that was given")
-      .def("save", &save, nb::arg("path"),
-           "Writes .obj, .ply, .gltf or .glb. A loaded mesh keeps what else its file held, in its "
-           "own format. OSError if it cannot be written.")
+      .def("_save", &save, nb::arg("path"))
       .def("_draw", &draw, nb::arg("size"), nb::arg("tiles"))
       .def("_save_picture", &save_picture, nb::arg("path"), nb::arg("size"), nb::arg("tiles"))
       .def_prop_ro("_report", [](const PackedMesh& p) { return p->report; });

@@ -33,7 +33,8 @@ void add_number(nb::class_<Options>& options, const char* name, Member member, R
       name, [member](Options& o) { return member(o); },
       [member, name, range](Options& o, nb::handle value) {
         member(o) = static_cast<T>(number_from(name, value, range, std::is_integral_v<T>));
-      });
+      },
+      nb::for_setter(nb::arg("value").none()));
 }
 
 /// A property that is one of the names in a table.
@@ -55,7 +56,8 @@ void add_choice(nb::class_<Options>& options, const char* name, const Named<E> (
           names += (i == 0 ? "" : i + 1 == N ? " or " : ", ") + std::string(table[i].name);
         }
         raise(usage(fmt::format("{}={}", name, shown(value)), "no such choice", "give " + names));
-      });
+      },
+      nb::for_setter(nb::arg("value").none()));
 }
 
 }  // namespace wrapatlas::python

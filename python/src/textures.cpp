@@ -2,6 +2,7 @@
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/shared_ptr.h>
 #include <nanobind/stl/string.h>
+#include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
 
 #include <algorithm>
@@ -126,7 +127,7 @@ void bind_bake(nb::module_& module) {
       .def_prop_ro("position_origin",
                    [](const Baked& b) {
                      const Vec3 p = b.result.low_corner;
-                     return nb::make_tuple(p.x, p.y, p.z);
+                     return std::tuple(p.x, p.y, p.z);
                    })
       .def_prop_ro("position_extent", [](const Baked& b) { return b.result.extent; });
   module.def("bake", &bake_maps, nb::arg("low"), nb::arg("high"), nb::arg("kinds"),

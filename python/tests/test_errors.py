@@ -65,7 +65,7 @@ class Arrays(unittest.TestCase):
         self.refused("faces: there are none", wrapatlas.unwrap, POSITIONS)
         self.refused("is no mesh", wrapatlas.pack, None)
         self.refused("is no mesh", wrapatlas.check, 3)
-        self.refused("no UVs|has UVs", wrapatlas.pack, wrapatlas.Mesh(POSITIONS, TRIANGLES))
+        self.refused("no face has", wrapatlas.pack, wrapatlas.Mesh(POSITIONS, TRIANGLES))
         self.refused("no face has UVs", wrapatlas.check, wrapatlas.Mesh(POSITIONS, TRIANGLES))
         self.refused("for 48 positions|for 4 positions", wrapatlas.Mesh, POSITIONS, TRIANGLES, FLAT)
         self.refused("uv_faces: its shape", wrapatlas.Mesh, POSITIONS, TRIANGLES, FLAT,
@@ -81,7 +81,7 @@ class Arrays(unittest.TestCase):
         self.refused("a row for each", packing.interpolate, [1.0])
         self.refused("size=", packing.image, 3)
         self.refused("size=", packing.image, 10**9)
-        self.refused("ending", packing.save_image, "a.txt")
+        self.refused("end the name", packing.save_image, "a.txt")
 
     def test_nothing_fits(self):
         with self.assertRaises(wrapatlas.NoPacking) as caught:

@@ -109,7 +109,7 @@ class Images(unittest.TestCase):
             np.testing.assert_array_equal(np.round(255 * wrapatlas.load_image(path)), image)
             with self.assertRaisesRegex(ValueError, "png"):
                 wrapatlas.save_image(folder + "/a.tif", image)
-            with self.assertRaisesRegex(ValueError, "bits|8 or 16"):
+            with self.assertRaisesRegex(ValueError, "neither 8 nor 16"):
                 wrapatlas.save_image(path, image, 12)
             with self.assertRaises(OSError):
                 wrapatlas.save_image(folder + "/no/a.png", image)

@@ -50,6 +50,14 @@ class Mesh(_core.Mesh):
         """The same with all faces cut into triangles."""
         return Mesh(self._triangulated())
 
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Writes .obj, .ply, .gltf or .glb.
+
+        A loaded mesh keeps what else its file held, in its own format. The file appears at once, or
+        not at all. OSError if it cannot be written.
+        """
+        self._save(os.fspath(path))
+
     def to_trimesh(self) -> trimesh.Trimesh:
         """A trimesh.Trimesh with these UVs: vertices are repeated along seams. Needs trimesh.
 
@@ -141,7 +149,10 @@ def to_trimesh(
 ) -> trimesh.Trimesh:
     import trimesh
 
-    visual = None if uv is None else trimesh.visual.TextureVisuals(uv=np.array(uv, np.float64))
+    visual = None
+    if uv is not None:
+        make_visual: Any = trimesh.visual.TextureVisuals
+        visual = make_visual(uv=np.array(uv, np.float64))
     return trimesh.Trimesh(
         vertices=np.array(vertices), faces=np.array(faces, np.int64), visual=visual, process=False
     )

@@ -64,7 +64,8 @@ def _rows(name: str, value: npt.ArrayLike, columns: int, count: int | None) -> n
 
 def _lines(keyword: str, rows: npt.NDArray[Any]) -> str:
     line = keyword + " %.9g" * rows.shape[1] + "\n"
-    return (line * len(rows)) % tuple(rows.ravel().tolist())
+    text: str = (line * len(rows)) % tuple(rows.ravel().tolist())
+    return text
 
 
 def _write(path: str, text: str) -> None:

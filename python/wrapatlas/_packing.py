@@ -82,7 +82,7 @@ class Packing(_core.PackedMesh):
                 f"{len(self.source.positions)} positions of the source"
             )
         if not self.is_cut:
-            return cast("npt.NDArray[np.float64]", rows[self.vmapping])
+            return rows[self.vmapping]
         weights = self.weights.reshape(-1, 3, *([1] * (rows.ndim - 1)))
         return cast("npt.NDArray[np.float64]", (weights * rows[self.sources]).sum(axis=1))
 
@@ -99,6 +99,14 @@ class Packing(_core.PackedMesh):
     ) -> None:
         """Draws the atlas to a file, .png or .svg; see image. OSError if it cannot be written."""
         self._save_picture(os.fspath(path), _picture_size(size), tiles)
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Writes .obj, .ply, .gltf or .glb.
+
+        A loaded mesh keeps what else its file held, in its own format. The file appears at once, or
+        not at all. OSError if it cannot be written.
+        """
+        self._save(os.fspath(path))
 
     def to_trimesh(self) -> trimesh.Trimesh:
         """A trimesh.Trimesh with the new UVs, its vertices in the order of vmapping. Needs trimesh.

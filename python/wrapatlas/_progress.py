@@ -40,7 +40,7 @@ class _Bars:
         self._stage = ""
         self._bar: Any = None
         try:
-            from tqdm.auto import tqdm
+            from tqdm.auto import tqdm  # type: ignore[import-untyped,unused-ignore]
         except ImportError:
             self._make: Any = None
         else:

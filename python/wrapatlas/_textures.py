@@ -116,7 +116,7 @@ def bake(
         texels_nearest=baked.texels_nearest,
         faces_without_uv=baked.faces_without_uv,
         distance=baked.distance,
-        position_origin=cast("tuple[float, float, float]", baked.position_origin),
+        position_origin=baked.position_origin,
         position_extent=baked.position_extent,
     )
 

@@ -17,7 +17,7 @@ import numpy.typing as npt
 from . import _core
 from ._arrays import floats, indices
 from ._errors import InputError, NoPacking, UsageError
-from ._images import Picture
+from ._images import Picture, as_picture
 from ._meshes import core_mesh
 from ._obj import export
 from ._packing import Packing, pack, unwrap
@@ -64,9 +64,10 @@ class PackOptions:
     """Texels between charts."""
     texels_per_unit: float = 0.0
     """If not 0, charts keep this scale: on one atlas that is large enough, or with `resolution` on as
-    many of that size as it takes."""
+    many square ones of that size as it takes; NoPacking if a chart is larger than one."""
     resolution: int = 0
-    """Texels a side; 0: 1024, or what texels_per_unit takes."""
+    """The atlas has about so many texels, squared; 0: 1024, or what texels_per_unit takes. Its shape
+    is chosen, but with both given."""
     bilinear: bool = True
     """A texel more between charts, for bilinear filters."""
     blockAlign: bool = False  # noqa: N815
@@ -168,7 +169,7 @@ class Atlas:
     ) -> None:
         """Adds a mesh whose charts are to be packed again.
 
-        uvs: (N, 2). indices: (F, 3). face_materials: (F,): faces of different ones are of different
+        uvs: (N, 2). indices: (F, 3). face_materials: (F,) or (F, 1): faces of different ones are of different
         charts. Faces hang together where their UVs are equal.
         """
         coordinates = _rows("uvs", uvs, 2)
@@ -176,6 +177,8 @@ class Atlas:
         materials = None
         if face_materials is not None:
             materials = np.asarray(face_materials)
+            if materials.ndim == 2 and materials.shape[1] == 1:  # what xatlas asks for
+                materials = materials[:, 0]
             if materials.shape != (len(faces),):
                 raise UsageError(
                     f"face_materials: its shape is {materials.shape}; pass ({len(faces)},): one for "
@@ -299,7 +302,8 @@ class Atlas:
         rows = -(-packing.pages // 10)
         height, width = image.shape[0] // rows, image.shape[1] // columns
         row, column = divmod(atlas_index, 10)
-        return image[row * height : (row + 1) * height, column * width : (column + 1) * width]
+        part = image[row * height : (row + 1) * height, column * width : (column + 1) * width]
+        return as_picture(part)
 
     def get_mesh_vertex_assignment(
         self, mesh_index: int
@@ -446,8 +450,10 @@ def _generate(
     unit = where.texels_per_unit
     if unit and where.resolution:
         options["density"] = unit
+    else:
+        options["aspect"] = "search"  # as xatlas, which chooses the shape, too
     if is_unwrapped:
-        cut = {"max_stretch": how.max_stretch, "max_charts": how.max_charts}
+        cut: dict[str, Any] = {"max_stretch": how.max_stretch, "max_charts": how.max_charts}
         packing = unwrap(mesh, **options, **cut)
     else:
         packing = pack(mesh, **options)
@@ -459,15 +465,16 @@ def _at_scale(packing: Packing, unit: float, options: dict[str, Any]) -> Packing
     if packing.density == 0:
         raise InputError("texels_per_unit: the meshes have no area, so there is no such scale")
     charts = packing.mesh
-    side = packing.width * unit / packing.density
+    larger = unit / packing.density
+    del options["aspect"]
     for _ in range(20):
-        options["resolution"] = max(1, math.ceil(side))
-        if options["resolution"] > 65536:
+        sides = [max(1, math.ceil(larger * side)) for side in (packing.width, packing.height)]
+        if max(sides) > 65536:
             break
         try:
-            return pack(charts, **options, density=unit, pages=1)
+            return pack(charts, **{**options, "resolution": tuple(sides)}, density=unit, pages=1)
         except NoPacking:
-            side *= 1.02
+            larger *= 1.02
     raise NoPacking(f"texels_per_unit={unit:g}: no atlas is large enough; give less")
 
 

@@ -156,7 +156,7 @@ class Atlas(unittest.TestCase):
 
     def test_scales_and_sizes(self):
         for library in self.libraries():
-            for resolution, unit in ((256, 0), (128, 40.0), (0, 40.0)):
+            for resolution, unit in ((256, 0), (256, 40.0), (0, 40.0)):
                 with self.subTest(f"{library.__name__} {resolution} {unit}"):
                     atlas = self.fill(library)
                     atlas.generate(pack_options=self.options(library, resolution=resolution,
@@ -164,7 +164,7 @@ class Atlas(unittest.TestCase):
                     if unit:
                         self.assertAlmostEqual(atlas.texels_per_unit, unit, places=3)
                     if unit and resolution:
-                        self.assertEqual((atlas.width, atlas.height), (128, 128))
+                        self.assertEqual((atlas.width, atlas.height), (256, 256))
                         self.assertGreater(atlas.atlas_count, 1)
                     pages = np.concatenate([atlas.get_mesh_vertex_assignment(i)[0]
                                             for i in range(2)])

@@ -68,7 +68,7 @@ class Interrupt(unittest.TestCase):
             return call()
         finally:
             timer.join()
-            self.assertLess(time.monotonic() - begin, 30)
+            self.assertLess(time.monotonic() - begin, 60)
 
     def test_it_raises(self):
         with self.assertRaises(KeyboardInterrupt):
@@ -80,7 +80,7 @@ class Interrupt(unittest.TestCase):
         self.assertTrue(packing.report.ok)
 
     def test_while_charts_are_cut(self):
-        mesh = wrapatlas.Mesh(*shapes.sphere(300_000))
+        mesh = wrapatlas.Mesh(*shapes.sphere(60_000))
         with self.assertRaises(KeyboardInterrupt):
             self.press(lambda: wrapatlas.unwrap(mesh, time=100, max_stretch=1.01,
                                                 on_interrupt="best"))

@@ -156,9 +156,11 @@ class Atlas(unittest.TestCase):
 
     def test_scales_and_sizes(self):
         for library in self.libraries():
-            for resolution, unit in ((256, 0), (256, 40.0), (0, 40.0)):
+            for resolution, unit in ((256, 0), (256, 50.0), (0, 50.0)):
                 with self.subTest(f"{library.__name__} {resolution} {unit}"):
                     atlas = self.fill(library)
+                    for _ in range(6):
+                        atlas.add_mesh(*shapes.box())
                     atlas.generate(pack_options=self.options(library, resolution=resolution,
                                                              texels_per_unit=unit))
                     if unit:
@@ -167,7 +169,7 @@ class Atlas(unittest.TestCase):
                         self.assertEqual((atlas.width, atlas.height), (256, 256))
                         self.assertGreater(atlas.atlas_count, 1)
                     pages = np.concatenate([atlas.get_mesh_vertex_assignment(i)[0]
-                                            for i in range(2)])
+                                            for i in range(len(atlas))])
                     self.assertEqual(set(pages), set(range(atlas.atlas_count)))
                     for _, _, uvs in atlas:
                         self.assertTrue((uvs >= -1e-6).all() and (uvs <= 1 + 1e-6).all())

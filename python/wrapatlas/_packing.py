@@ -62,7 +62,8 @@ class Packing(_core.PackedMesh):
 
         All False where nothing wraps, and where there are several pages.
         """
-        return cast("npt.NDArray[np.bool_]", self._wraps.astype(np.bool_))
+        found: npt.NDArray[np.bool_] = self._wraps.astype(np.bool_)
+        return found
 
     @property
     def report(self) -> _core.CheckReport | None:
@@ -84,7 +85,8 @@ class Packing(_core.PackedMesh):
         if not self.is_cut:
             return rows[self.vmapping]
         weights = self.weights.reshape(-1, 3, *([1] * (rows.ndim - 1)))
-        return cast("npt.NDArray[np.float64]", (weights * rows[self.sources]).sum(axis=1))
+        means: npt.NDArray[np.float64] = (weights * rows[self.sources]).sum(axis=1)
+        return means
 
     def image(self, size: int = 1024, tiles: bool = False) -> Picture:
         """Draws the atlas: (height, width, 3) uint8, charts in colours of their own, numbered.

@@ -109,10 +109,11 @@ def bake(
     color = None if color_from is None else pixels("color_from", color_from)
     with reported(progress) as report:
         baked = _core.bake(as_mesh(low, "low"), as_mesh(high, "high"), kinds, color, settings, report)
-    width, height = int(settings.width), int(settings.height)
+    mask = baked.take_inside(int(settings.width), int(settings.height))
+    inside: npt.NDArray[np.bool_] = mask.astype(np.bool_)
     return Baking(
         maps={kind: as_picture(baked.take(i)) for i, kind in enumerate(kinds)},
-        inside=cast("npt.NDArray[np.bool_]", baked.take_inside(width, height).astype(np.bool_)),
+        inside=inside,
         texels_nearest=baked.texels_nearest,
         faces_without_uv=baked.faces_without_uv,
         distance=baked.distance,

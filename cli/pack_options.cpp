@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pack/request.h"
 #include "wrapatlas/model.h"
 
 namespace wrapatlas::cli {
@@ -78,27 +79,6 @@ void add_output_options(CLI::App& app, PackArguments& a) {
   app.add_flag("--verbose", a.verbose, "A longer summary, more notes");
 }
 
-/// Options that belong to some methods only.
-struct MethodOption {
-  const char* option;
-  std::vector<Method> methods;
-};
-const MethodOption kMethodOptions[] = {
-    {"--time", {Method::guided}},
-    {"--moves", {Method::guided}},
-    {"--density", {Method::guided}},
-    {"--pages", {Method::guided}},
-    {"--udim", {Method::guided}},
-    {"--rotations",
-     {Method::guided, Method::modulo, Method::swg03, Method::zsgs04, Method::lprm02}},
-    {"--scale-start", {Method::modulo, Method::swg03, Method::zsgs04, Method::lprm02}},
-    {"--rotation-base", {Method::modulo, Method::swg03, Method::zsgs04}},
-    {"--lambda", {Method::modulo}},
-    {"--no-inner", {Method::modulo}},
-    {"--all-sides", {Method::zsgs04}},
-    {"--seed", {Method::guided}},
-};
-
 Status refuse_useless(const CLI::App& app, const PackArguments& a) {
   const Wrap wrap = a.options.wrap;
   if (const Status ok = refuse_ignored(app, options_of_other_methods({&a.options.method, 1}));
@@ -121,21 +101,6 @@ Status refuse_useless(const CLI::App& app, const PackArguments& a) {
   return refuse_ignored(app, ignored);
 }
 
-Result<double> parse_ratio(const std::string& aspect) {
-  double across = 1, up = 1;
-  if (aspect != "square") {
-    const std::size_t colon = aspect.find(':');
-    const bool numbers = colon != std::string::npos &&
-                         CLI::detail::lexical_cast(aspect.substr(0, colon), across) &&
-                         CLI::detail::lexical_cast(aspect.substr(colon + 1), up);
-    if (!numbers || !(across > 0 && up > 0) || across / up > 1024 || up / across > 1024) {
-      return usage("--aspect " + aspect, "not an aspect ratio",
-                   "give square, search, pow2 or W:H, e.g. 2:1, at most 1024:1");
-    }
-  }
-  return across / up;
-}
-
 /// --resolution and --aspect together give the size in texels.
 Status resolve_size(PackArguments& a) {
   const Resolution& size = a.resolution;
@@ -147,25 +112,7 @@ Status resolve_size(PackArguments& a) {
     return usage("--aspect " + a.aspect, "--resolution WxH already gives the shape",
                  "leave out --aspect, or give --resolution N");
   }
-  if (a.aspect == "search" || a.aspect == "pow2") {
-    options.aspect = a.aspect == "search" ? Aspect::search : Aspect::pow2;
-    return Done{};
-  }
-  const auto ratio = parse_ratio(a.aspect);
-  if (!ratio) return ratio.error();
-  const double stretch = std::sqrt(*ratio);
-  const auto texels = [&](double side) {
-    const double block = options.block;
-    return static_cast<int>(std::max(1.0, std::round(side / block)) * block);
-  };
-  options.width = texels(size.width * stretch);
-  options.height = texels(size.height / stretch);
-  if (std::max(options.width, options.height) > kMostTexels) {
-    return usage("--aspect " + a.aspect,
-                 fmt::format("makes {} x {} texels", options.width, options.height),
-                 "lower --resolution: 65536 texels a side are the limit");
-  }
-  return Done{};
+  return set_aspect(options, a.aspect, "--aspect ");
 }
 
 }  // namespace
@@ -202,8 +149,8 @@ std::vector<Ignored> options_of_other_methods(std::span<const Method> methods) {
   const std::string why = fmt::format("{} {} no use for it", fmt::join(names, ", "),
                                       names.size() == 1 ? "has" : "have");
   std::vector<Ignored> ignored;
-  for (const auto& [option, readers] : kMethodOptions) {
-    ignored.push_back({option,
+  for (const auto& [name, readers] : method_options()) {
+    ignored.push_back({fmt::format("--{}", name),
                        std::find_first_of(methods.begin(), methods.end(), readers.begin(),
                                           readers.end()) == methods.end(),
                        why,
@@ -247,20 +194,18 @@ void add_pack_options(CLI::App& app, PackArguments& a, const char* input_help) {
 Status resolve_pack_options(const CLI::App& app, PackArguments& a) {
   PackOptions& options = a.options;
   if (const Status ok = resolve_size(a); !ok) return ok;
-  const bool can_wrap = options.method == Method::modulo || options.method == Method::guided;
-  options.wrap = a.wrap.value_or(can_wrap && !a.udim ? Wrap::uv : Wrap::none);
+  options.wrap = a.wrap.value_or(can_wrap(options.method) && !a.udim ? Wrap::uv : Wrap::none);
   if (a.udim && options.wrap != Wrap::none) {
     return usage(fmt::format("--wrap {}", name_of(kWraps, options.wrap)),
                  "a chart must not cross the border of a UDIM tile", "leave it out, or --udim");
   }
   options.pages = a.pages.value_or(a.density ? 0 : 1);
-  if (!can_wrap && options.wrap != Wrap::none) {
+  if (!can_wrap(options.method) && options.wrap != Wrap::none) {
     return usage(fmt::format("--wrap {}", name_of(kWraps, options.wrap)),
                  fmt::format("{} cannot wrap around the border", name_of(kMethods, options.method)),
                  "use --method guided or modulo, or --wrap none");
   }
-  options.padding =
-      a.padding.value_or(std::max(2.0, std::max(options.width, options.height) / 256.0));
+  options.padding = a.padding.value_or(default_padding(options.width, options.height));
   options.margin = a.margin.value_or(-1);
   options.inner = !a.no_inner;
   if (options.method == Method::lprm02) {

@@ -6,6 +6,7 @@
 
 #include "options.h"
 #include "output_paths.h"
+#include "pack/request.h"
 #include "wrapatlas/picture.h"
 
 namespace wrapatlas::cli {
@@ -33,9 +34,7 @@ struct PackArguments {
   PackOptions options;  ///< complete after resolve_pack_options, but for the density
 
   /// Texels to sides that do not wrap, as asked or by default.
-  [[nodiscard]] double margin_in_force() const {
-    return options.margin < 0 ? options.padding / 2 : options.margin;
-  }
+  [[nodiscard]] double margin_in_force() const { return wrapatlas::margin_in_force(options); }
 };
 
 /// For --help.

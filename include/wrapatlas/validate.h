@@ -67,4 +67,10 @@ struct CheckReport {
 Result<CheckReport> check_atlas(const Mesh& atlas, const Mesh* reference,
                                 const CheckOptions& options);
 
+/// What pack() promised with these options of the packing that it made, for check_atlas: sizes,
+/// wrap, padding, margin, pages. `cut`: of export_cut's atlas, which must hold without any
+/// wrapping, and whose charts reach the sides that they were cut at. `stacked_ok` and
+/// `v_points_down` are for the caller to say.
+CheckOptions promises_of(const PackOptions& options, const Packing& packing, bool cut);
+
 }  // namespace wrapatlas

@@ -56,7 +56,7 @@ WeldedCorners weld_corners(const Mesh& mesh);
 
 /// Cuts a face into face_size - 2 triangles of corner offsets (0 .. face_size - 1), by ear
 /// clipping in the plane of `points` (the face's corners in order; its orientation may be either).
-/// Degenerate faces get a fan. O(k^2) for k corners.
+/// Degenerate faces get a fan. O(k^2) for k corners of most faces, O(k^3) at worst.
 void triangulate_polygon(std::span<const Vec2> points,
                          std::vector<std::array<std::uint32_t, 3>>& triangles);
 

@@ -58,7 +58,8 @@ enum class MipFilter {
 struct MipMaps {
   std::vector<Texture> levels;  ///< level 0 is the texture
 };
-MipMaps make_mip_maps(Texture texture, MipFilter filter);
+/// `threads` here and below: 0: as many as there are; the result does not depend on it.
+MipMaps make_mip_maps(Texture texture, MipFilter filter, int threads = 0);
 
 /// Trilinear: between the two levels next to `level` (0: the texture itself), bilinear in each.
 TextureValue sample_trilinear(const MipMaps& maps, Vec2 uv, double level, Wrap wrap);
@@ -66,15 +67,15 @@ TextureValue sample_trilinear(const MipMaps& maps, Vec2 uv, double level, Wrap w
 /// Gives every texel outside the mask the value of the one inside that is nearest (Euclidean, from
 /// centre to centre; over the border on axes that wrap; which of equals is not said, but always the
 /// same). With none inside all stays as it is. O(texels).
-void dilate(Texture& texture, const TexelMask& inside, Wrap wrap);
+void dilate(Texture& texture, const TexelMask& inside, Wrap wrap, int threads = 0);
 
 /// sRGB and linear light, both in [0, 1] (IEC 61966-2-1); outside it they go on alike.
 float srgb_to_linear(float value);
 float linear_to_srgb(float value);
 
 /// The first three channels; a fourth is alpha, which is linear always.
-void srgb_to_linear(Texture& texture);
-void linear_to_srgb(Texture& texture);
+void srgb_to_linear(Texture& texture, int threads = 0);
+void linear_to_srgb(Texture& texture, int threads = 0);
 
 /// A PNG or JPEG file's pixels; grey ones have one channel, or two with alpha. 16-bit values keep
 /// their precision. No colour profile is applied. What the file's name ends in does not matter.
@@ -97,6 +98,7 @@ struct Likeness {
 };
 /// Over the pixels of the mask (all, if it is empty). Preconditions: equal sizes and channels, at
 /// least one pixel. O(pixels).
-Likeness compare(const Texture& a, const Texture& b, std::span<const std::uint8_t> mask = {});
+Likeness compare(const Texture& a, const Texture& b, std::span<const std::uint8_t> mask = {},
+                 int threads = 0);
 
 }  // namespace wrapatlas

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mesh/perpendicular.h"
 #include "wrapatlas/geometry.h"
 #include "wrapatlas/mesh.h"
 
@@ -46,10 +47,7 @@ class Plane {
   explicit Plane(const Vec3& normal) {
     const Vec3 n = unit(normal);
     if (n == Vec3{}) return;
-    // The axis that is farthest from the normal.
-    const double x = std::abs(n.x), y = std::abs(n.y), z = std::abs(n.z);
-    const Vec3 axis = x <= y && x <= z ? Vec3{1, 0, 0} : y <= z ? Vec3{0, 1, 0} : Vec3{0, 0, 1};
-    u_ = unit(cross(axis, n));
+    u_ = -1.0 * perpendicular(n);
     v_ = cross(n, u_);
   }
   [[nodiscard]] Vec2 project(const Vec3& p) const { return {dot(u_, p), dot(v_, p)}; }

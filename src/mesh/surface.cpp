@@ -7,6 +7,7 @@
 
 #include "mesh/edge_groups.h"
 #include "mesh/polygon_plane.h"
+#include "mesh/same_uv.h"
 #include "mesh/union_find.h"
 
 namespace wrapatlas {
@@ -221,13 +222,8 @@ class SurfaceBuilder {
     if (!options_.uv_seams) return false;
     const std::uint32_t t = twin_[c];
     const bool same_way = welded_.of_corner[c] == welded_.of_corner[t];
-    return !same_uv(c, same_way ? t : next(t)) || !same_uv(next(c), same_way ? next(t) : t);
-  }
-
-  [[nodiscard]] bool same_uv(std::uint32_t a, std::uint32_t b) const {
-    const std::uint32_t i = mesh_.corner_texcoord[a], j = mesh_.corner_texcoord[b];
-    if (i == kNone || j == kNone) return i == j;
-    return mesh_.texcoords[i] == mesh_.texcoords[j];
+    return !same_uv(mesh_, c, same_way ? t : next(t)) ||
+           !same_uv(mesh_, next(c), same_way ? next(t) : t);
   }
 
   [[nodiscard]] bool is_label_border(std::uint32_t c) const {

@@ -10,6 +10,7 @@
 
 #include "mesh/corner_angle.h"
 #include "mesh/edge_groups.h"
+#include "mesh/perpendicular.h"
 #include "mesh/polygon_plane.h"
 
 namespace wrapatlas {
@@ -24,11 +25,6 @@ struct FaceTangent {
   bool is_any = true;      ///< no direction: goes along with any neighbour
   bool is_point = false;   ///< two corners at one place: part of no group
 };
-
-Vec3 any_perpendicular(const Vec3& normal) {
-  const Vec3 axis = std::abs(normal.x) < 0.9 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
-  return unit(axis - dot(axis, normal) * normal);
-}
 
 Vec3 within_plane(const Vec3& v, const Vec3& normal) { return unit(v - dot(normal, v) * normal); }
 
@@ -53,7 +49,7 @@ class Builder {
     for (std::uint32_t c = 0; c < group_.size(); ++c) {
       const Vec3 tangent =
           group_[c] == kNone ? Vec3{} : within_plane(sums_[group_[c]], normals_[c]);
-      frames.tangent[c] = tangent == Vec3{} ? any_perpendicular(normals_[c]) : tangent;
+      frames.tangent[c] = tangent == Vec3{} ? perpendicular(normals_[c]) : tangent;
       frames.sign[c] = group_[c] == kNone || preserves_[group_[c]] ? 1.0F : -1.0F;
       if (group_[c] == kNone) continue;
       tangent_of_vertex[vertex_[c]] = frames.tangent[c];

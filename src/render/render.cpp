@@ -33,7 +33,7 @@ class View {
         const std::size_t c = 3 * std::size_t{t} + i;
         placed.corner[i] = camera.place(triangles.positions[triangles.corner_position[c]]);
       }
-      placed.spread = spread_of(triangles, t, placed.flat());
+      placed.level_of_detail = level_of(triangles, t, placed.flat());
       placed_.push_back(placed);
       visible_.draw(t, placed.corner);
     }
@@ -52,7 +52,7 @@ class View {
  private:
   struct Placed {
     std::array<Vec3, 3> corner;
-    double spread = 0;
+    double level_of_detail = 0;
     [[nodiscard]] std::array<Vec2, 3> flat() const {
       return {
           Vec2{corner[0].x, corner[0].y}, {corner[1].x, corner[1].y}, {corner[2].x, corner[2].y}};
@@ -71,12 +71,12 @@ class View {
             visible_.triangle(std::size_t{1} * row * visible_.size() + std::size_t(column));
         std::array<float, 3> color = ground_;
         if (triangle != kNone) {
-          const Shares shares = shares_at(triangle, column, row);
-          color = shader.color(triangle, shares, placed_[triangle].spread, camera_);
+          const Weights weights = weights_at(triangle, column, row);
+          color = shader.color(triangle, weights, placed_[triangle].level_of_detail, camera_);
           ++seen;
           if (i == kSamplesAcross / 2 && j == kSamplesAcross / 2) {
             rendering.face[pixel] = mesh_.face_source[triangle];
-            rendering.uv[pixel] = shader.uv(triangle, shares);
+            rendering.uv[pixel] = shader.uv(triangle, weights);
           }
         }
         for (std::size_t c = 0; c < 3; ++c) sum[c] += color[c];
@@ -88,7 +88,7 @@ class View {
     rendering.covered[pixel] = seen == kSamples ? 1 : 0;
   }
 
-  [[nodiscard]] Shares shares_at(std::uint32_t triangle, int x, int y) const {
+  [[nodiscard]] Weights weights_at(std::uint32_t triangle, int x, int y) const {
     const auto [a, b, c] = placed_[triangle].flat();
     const Vec2 p{double(x), double(y)};
     const double area = signed_area2(a, b, c);
@@ -99,8 +99,8 @@ class View {
   }
 
   /// By the areas of the triangle in UV and on the picture.
-  static double spread_of(const Mesh& triangles, std::uint32_t triangle,
-                          const std::array<Vec2, 3>& place) {
+  static double level_of(const Mesh& triangles, std::uint32_t triangle,
+                         const std::array<Vec2, 3>& place) {
     constexpr double kNothing = -std::numeric_limits<double>::infinity();
     std::array<Vec2, 3> uv;
     for (std::size_t i = 0; i < 3; ++i) {

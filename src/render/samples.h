@@ -13,24 +13,27 @@
 
 namespace wrapatlas {
 
-inline constexpr int kSamplesAcross = 3;  ///< of a pixel, and down it
-inline constexpr double kFarthestSample = 1e6;
+inline constexpr int kSamplesAcross = 3;         ///< of a pixel, and down it
+inline constexpr double kFarthestSample = 1e6;   ///< beyond any picture
+inline constexpr double kFarthestCorner = 1e12;  ///< where edges are known to a thousandth still
 
 /// Visits (y, begin, end) for each row of samples within `bounds` that a triangle has any of: those
 /// at whole x in [begin, end). A sample on an edge belongs to one side of it alone, so triangles
 /// that share an edge leave no gap and nothing is visited twice. Triangles of no area, or with a
-/// corner beyond kFarthestSample, have no samples. O(rows), however long and thin the triangle
+/// corner beyond kFarthestCorner, have no samples. O(rows), however long and thin the triangle
 /// lies.
 template <typename Visit>
 void for_each_span(const std::array<Vec2, 3>& corner, const PixelBox& bounds, Visit&& visit) {
   if (signed_area2(corner[0], corner[1], corner[2]) == 0) return;
   Box2 box;
   for (const Vec2 p : corner) {
-    const bool usable = std::abs(p.x) <= kFarthestSample && std::abs(p.y) <= kFarthestSample;
+    const bool usable = std::abs(p.x) <= kFarthestCorner && std::abs(p.y) <= kFarthestCorner;
     if (!usable) return;  // NaN as well
     box.add(p);
   }
-  const auto first = [](double position) { return static_cast<int>(std::ceil(position)); };
+  const auto first = [](double position) {
+    return static_cast<int>(std::ceil(std::clamp(position, -kFarthestSample, kFarthestSample)));
+  };
   const int bottom = std::min(bounds.bottom, first(box.max.y));
   for (int y = std::max(bounds.top, first(box.min.y)); y < bottom; ++y) {
     double left = box.max.x, right = box.min.x;

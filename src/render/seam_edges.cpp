@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "mesh/edge_groups.h"
+#include "mesh/same_uv.h"
 #include "wrapatlas/view.h"
 
 namespace wrapatlas {
@@ -46,14 +47,8 @@ class SeamFinder {
     if (face_chart_[corner_face_[a.face]] != face_chart_[corner_face_[b.face]]) return true;
     const std::uint32_t a_end = next(a.face), b_end = next(b.face);
     const bool same_way = a.reversed == b.reversed;
-    return !same_uv(a.face, same_way ? b.face : b_end) ||
-           !same_uv(a_end, same_way ? b_end : b.face);
-  }
-
-  [[nodiscard]] bool same_uv(std::uint32_t a, std::uint32_t b) const {
-    const std::uint32_t i = mesh_.corner_texcoord[a], j = mesh_.corner_texcoord[b];
-    if (i == kNone || j == kNone) return i == j;
-    return mesh_.texcoords[i] == mesh_.texcoords[j];
+    return !same_uv(mesh_, a.face, same_way ? b.face : b_end) ||
+           !same_uv(mesh_, a_end, same_way ? b_end : b.face);
   }
 
   [[nodiscard]] const Vec3& position(std::uint32_t corner) const {

@@ -27,47 +27,49 @@ Shader::Shader(const Triangulated& triangles, const RenderOptions& options)
   if (mapped) frames_ = tangent_frames(mesh_, frames_.normal, options.v_points_down);
 }
 
-std::array<float, 3> Shader::color(std::uint32_t triangle, const Shares& shares, double spread,
-                                   const Camera& camera) const {
-  Vec2 place = uv(triangle, shares);
+std::array<float, 3> Shader::color(std::uint32_t triangle, const Weights& weights,
+                                   double level_of_detail, const Camera& camera) const {
+  Vec2 place = uv(triangle, weights);
   if (!options_.v_points_down) place.y = 1 - place.y;
-  std::array<float, 3> color = albedo(triangle, place, spread);
+  std::array<float, 3> color = albedo(triangle, place, level_of_detail);
   if (options_.shading == Shading::none) return color;
-  const double light = light_on(normal_at(triangle, shares, place, spread), triangle, camera);
+  const double light =
+      light_on(normal_at(triangle, weights, place, level_of_detail), triangle, camera);
   for (float& value : color) value *= static_cast<float>(light);
   return color;
 }
 
-std::array<float, 3> Shader::albedo(std::uint32_t triangle, Vec2 uv, double spread) const {
+std::array<float, 3> Shader::albedo(std::uint32_t triangle, Vec2 uv, double level_of_detail) const {
   GroupColor from{options_.color, {}};
   Wrap wrap = options_.wrap;
   if (!options_.group_colors.empty()) {
     from = options_.group_colors[options_.face_group[face_[triangle]]];
     wrap = wrap_of(from.source);
     uv = place_of(from.source, uv);
-    spread += 0.5 * std::log2(area_scale(from.source));
+    level_of_detail += 0.5 * std::log2(area_scale(from.source));
   }
   if (from.maps == nullptr) return {kGrey, kGrey, kGrey};
   const TextureValue value =
-      as_color(sampled(*from.maps, uv, wrap, spread), from.maps->levels.front().channels);
+      as_color(sampled(*from.maps, uv, wrap, level_of_detail), from.maps->levels.front().channels);
   return {value[0], value[1], value[2]};
 }
 
-Vec2 Shader::uv(std::uint32_t triangle, const Shares& shares) const {
+Vec2 Shader::uv(std::uint32_t triangle, const Weights& weights) const {
   Vec2 sum;
   for (std::size_t i = 0; i < 3; ++i) {
     const std::uint32_t at = mesh_.corner_texcoord[3 * std::size_t{triangle} + i];
     if (at == kNone) return {};
-    sum = sum + shares[i] * mesh_.texcoords[at];
+    sum = sum + weights[i] * mesh_.texcoords[at];
   }
   return sum;
 }
 
-TextureValue Shader::sampled(const MipMaps& maps, Vec2 uv, Wrap wrap, double spread) const {
+TextureValue Shader::sampled(const MipMaps& maps, Vec2 uv, Wrap wrap,
+                             double level_of_detail) const {
   const Texture& texture = maps.levels.front();
   if (!options_.trilinear) return sample_bilinear(texture, uv, wrap);
   const double size = 0.5 * std::log2(static_cast<double>(texture.texel_count()));
-  const double level = options_.level >= 0 ? options_.level : spread + size;
+  const double level = options_.level >= 0 ? options_.level : level_of_detail + size;
   return sample_trilinear(maps, uv, level, wrap);
 }
 
@@ -76,21 +78,22 @@ Vec3 Shader::face_normal(std::uint32_t triangle) const {
 }
 
 Vec3 Shader::interpolated(const CornerVectors& vectors, std::uint32_t triangle,
-                          const Shares& shares) const {
+                          const Weights& weights) const {
   Vec3 sum;
   for (std::size_t i = 0; i < 3; ++i) {
-    sum = sum + shares[i] * vectors[3 * std::size_t{triangle} + i];
+    sum = sum + weights[i] * vectors[3 * std::size_t{triangle} + i];
   }
   return unit(sum);
 }
 
-Vec3 Shader::normal_at(std::uint32_t triangle, const Shares& shares, Vec2 uv, double spread) const {
+Vec3 Shader::normal_at(std::uint32_t triangle, const Weights& weights, Vec2 uv,
+                       double level_of_detail) const {
   if (options_.shading == Shading::flat) return face_normal(triangle);
-  if (options_.shading == Shading::smooth) return interpolated(frames_.normal, triangle, shares);
-  const Vec3 map = direction_of(sampled(*options_.normals, uv, options_.wrap, spread));
+  if (options_.shading == Shading::smooth) return interpolated(frames_.normal, triangle, weights);
+  const Vec3 map = direction_of(sampled(*options_.normals, uv, options_.wrap, level_of_detail));
   if (options_.shading == Shading::object_normals) return unit(map);
-  const Vec3 normal = interpolated(frames_.normal, triangle, shares);
-  const Vec3 tangent = interpolated(frames_.tangent, triangle, shares);
+  const Vec3 normal = interpolated(frames_.normal, triangle, weights);
+  const Vec3 tangent = interpolated(frames_.tangent, triangle, weights);
   const auto sign = double(frames_.sign[3 * std::size_t{triangle}]);
   return unit(map.x * tangent + sign * map.y * cross(normal, tangent) + map.z * normal);
 }

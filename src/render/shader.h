@@ -11,30 +11,32 @@
 
 namespace wrapatlas {
 
-/// Shares of a triangle's corners; they add up to 1.
-using Shares = std::array<double, 3>;
+/// Barycentric: of a triangle's corners; they add up to 1.
+using Weights = std::array<double, 3>;
 
 class Shader {
  public:
   /// Both outlive the shader.
   Shader(const Triangulated& triangles, const RenderOptions& options);
 
-  /// Linear light. `spread`: how far the triangle reaches in UV for each pixel on the picture, as a
-  /// power of two. Thread safe.
-  [[nodiscard]] std::array<float, 3> color(std::uint32_t triangle, const Shares& shares,
-                                           double spread, const Camera& camera) const;
+  /// Linear light. `level_of_detail`: how far the triangle reaches in UV for each pixel on the
+  /// picture, as a power of two. Thread safe.
+  [[nodiscard]] std::array<float, 3> color(std::uint32_t triangle, const Weights& weights,
+                                           double level_of_detail, const Camera& camera) const;
 
   /// As in the mesh; (0, 0) without UVs.
-  [[nodiscard]] Vec2 uv(std::uint32_t triangle, const Shares& shares) const;
+  [[nodiscard]] Vec2 uv(std::uint32_t triangle, const Weights& weights) const;
 
  private:
-  [[nodiscard]] std::array<float, 3> albedo(std::uint32_t triangle, Vec2 uv, double spread) const;
-  [[nodiscard]] TextureValue sampled(const MipMaps& maps, Vec2 uv, Wrap wrap, double spread) const;
+  [[nodiscard]] std::array<float, 3> albedo(std::uint32_t triangle, Vec2 uv,
+                                            double level_of_detail) const;
+  [[nodiscard]] TextureValue sampled(const MipMaps& maps, Vec2 uv, Wrap wrap,
+                                     double level_of_detail) const;
   [[nodiscard]] Vec3 face_normal(std::uint32_t triangle) const;
   [[nodiscard]] Vec3 interpolated(const CornerVectors& vectors, std::uint32_t triangle,
-                                  const Shares& shares) const;
-  [[nodiscard]] Vec3 normal_at(std::uint32_t triangle, const Shares& shares, Vec2 uv,
-                               double spread) const;
+                                  const Weights& weights) const;
+  [[nodiscard]] Vec3 normal_at(std::uint32_t triangle, const Weights& weights, Vec2 uv,
+                               double level_of_detail) const;
   [[nodiscard]] double light_on(const Vec3& normal, std::uint32_t triangle,
                                 const Camera& camera) const;
 

@@ -49,6 +49,7 @@ bool CollapseMesh::can_collapse(std::uint32_t c) {
 
 std::array<std::uint32_t, 3> CollapseMesh::collapse(std::uint32_t c) {
   const std::uint32_t a = vertex(c), b = vertex(next(c)), t = twin(c);
+  if (is_border(b)) vertex_corner_[a] = vertex_corner_[b];  // a is at a border from now on
   each_corner(b, [&](std::uint32_t corner) { corners_[corner].vertex = a; });
   const std::array<std::uint32_t, 3> gone{edge(c), close_face(c),
                                           t == kNone ? kNone : close_face(t)};
@@ -79,12 +80,11 @@ std::uint32_t CollapseMesh::close_face(std::uint32_t c) {
   return gone;
 }
 
-/// Makes the vertex known by the corner, or by the one at its border.
+/// Makes the vertex known by the corner, or by the one at its border if it is known by that.
 void CollapseMesh::anchor(std::uint32_t v, std::uint32_t corner) {
   std::uint32_t c = corner;
-  while (twin(c) != kNone) {
-    c = next(twin(c));
-    if (c == corner) break;
+  if (is_border(v)) {
+    while (twin(c) != kNone) c = next(twin(c));
   }
   vertex_corner_[v] = c;
 }

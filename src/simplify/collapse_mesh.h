@@ -54,6 +54,18 @@ class CollapseMesh {
     } while (c != first && c != kNone);
   }
 
+  /// Whether is_it(c) holds for any corner at v; none after it is asked.
+  template <typename Test>
+  [[nodiscard]] bool any_corner(std::uint32_t v, Test&& is_it) const {
+    const std::uint32_t first = vertex_corner_[v];
+    std::uint32_t c = first;
+    do {
+      if (is_it(c)) return true;
+      c = twin(previous(c));
+    } while (c != first && c != kNone);
+    return false;
+  }
+
   /// visit(u, c) for the edges at v: u is the other end, c a corner of the edge.
   template <typename Visit>
   void each_edge(std::uint32_t v, Visit&& visit) const {

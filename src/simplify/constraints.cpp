@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "mesh/perpendicular.h"
+
 namespace wrapatlas {
 namespace {
 
@@ -12,13 +14,6 @@ constexpr double kSinAlpha = 0.01745240643728351282;
 constexpr double kNoRow = 1e-12;
 
 }  // namespace
-
-Vec3 beside(const Vec3& v) {
-  const double x = std::abs(v.x), y = std::abs(v.y), z = std::abs(v.z);
-  const Vec3 axis = x <= y && x <= z ? Vec3{1, 0, 0} : y <= z ? Vec3{0, 1, 0} : Vec3{0, 0, 1};
-  const Vec3 side = cross(v, axis);
-  return 1 / length(side) * side;
-}
 
 bool Constraints::is_compatible(const Vec3& unit_normal) const {
   if (count_ == 0) return true;
@@ -45,7 +40,7 @@ void Constraints::minimise(const Symmetric3& h, const Vec3& c) {
     along({0, 1, 0});
     along({0, 0, 1});
   } else if (count_ == 1) {
-    const Vec3 n = normal_[0], side = beside(n);
+    const Vec3 n = normal_[0], side = perpendicular(n);
     along(side);
     along(cross(n, side));
   } else if (count_ == 2) {

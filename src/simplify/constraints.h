@@ -9,9 +9,6 @@
 
 namespace wrapatlas {
 
-/// A unit vector at a right angle to v, which must not be 0.
-Vec3 beside(const Vec3& v);
-
 /// Planes a·v = b. A further one counts only if its normal is at more than 1 degree to what the
 /// normals before it span (the paper's alpha), so that the point is well defined.
 class Constraints {

@@ -2,16 +2,9 @@
 
 #include <algorithm>
 
+#include "mesh/same_uv.h"
+
 namespace wrapatlas {
-namespace {
-
-bool same_uv(const Mesh& mesh, std::uint32_t a, std::uint32_t b) {
-  const std::uint32_t i = mesh.corner_texcoord[a], j = mesh.corner_texcoord[b];
-  if (i == kNone || j == kNone) return i == j;
-  return mesh.texcoords[i] == mesh.texcoords[j];
-}
-
-}  // namespace
 
 Creases::Creases(const Mesh& triangles, const Surface& surface, CollapseMesh& mesh,
                  bool keep_uv_seams)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <span>
+#include <unordered_map>
 #include <vector>
 
 #include "simplify/collapse_mesh.h"
@@ -15,6 +16,13 @@ namespace wrapatlas {
 struct Star {
   Symmetric3 squares;  ///< of n nᵀ
   Vec3 normal;         ///< of n
+  std::uint32_t faces = 0;
+
+  /// Of more triangles than may be looked at whenever something near the vertex changes.
+  static constexpr std::uint32_t kMostAtOnce = 32;
+  [[nodiscard]] bool is_hub() const { return faces > kMostAtOnce; }
+  void add(const Vec3& n);
+  void take(const Vec3& n);
 };
 
 class PatchGeometry {
@@ -26,7 +34,11 @@ class PatchGeometry {
   [[nodiscard]] const Vec3& normal(std::uint32_t f) const { return normals_[f]; }
   [[nodiscard]] const Star& star(std::uint32_t v) const { return vertices_[v].star; }
 
-  /// Also brings up to date what hangs on it, from the triangles that are there now: no sum drifts.
+  /// To be called before the edge of c is collapsed.
+  void before_collapse(std::uint32_t c);
+  /// Also brings up to date what hangs on it. Sums are made anew from the triangles that are there
+  /// now; those of a hub after as many changes as it has triangles, so none drifts farther than a
+  /// sum over its triangles is off. O(d) for a vertex of degree d, whatever its neighbours'.
   void move(std::uint32_t v, const Vec3& point);
 
   /// Signed, of the faces that are left.
@@ -39,6 +51,7 @@ class PatchGeometry {
  private:
   [[nodiscard]] Vec3 normal_of(std::uint32_t f) const;
   [[nodiscard]] Star star_of(std::uint32_t v) const;
+  void sum_hub(std::uint32_t v);
 
   const CollapseMesh& mesh_;
   struct Vertex {
@@ -47,6 +60,11 @@ class PatchGeometry {
   };
   std::vector<Vertex> vertices_;
   std::vector<Vec3> normals_;
+  struct Hub {
+    std::uint32_t changes = 0;  ///< since its star was summed
+    double largest = 0;         ///< trace of its squares since then
+  };
+  std::unordered_map<std::uint32_t, Hub> hubs_;  ///< looked up only
 };
 
 }  // namespace wrapatlas

@@ -11,11 +11,13 @@
 //   straight border does and the origin lies on it.
 // - UV seams, if they are kept, are lines to optimisation only. A closed surface keeps its volume.
 // - Costs of 0, as in a plane, are ordered by length of the edge: the paper does not say how.
+// - A hub stands for the link vertices around it, as if it were in their middle.
 // - Sums over triangles come from two vertices' stars (see Star), each seen from its own vertex.
 #include "simplify/placement.h"
 
 #include <algorithm>
 
+#include "mesh/perpendicular.h"
 #include "simplify/constraints.h"
 
 namespace wrapatlas {
@@ -60,7 +62,7 @@ struct Lines {
     const double square = dot(direction, direction);
     if (!(square > kNoNormal * squares)) return;
     const Vec3 on_line = 1 / square * cross(direction, moment);
-    const Vec3 side = beside(direction), other = cross(direction, side);
+    const Vec3 side = perpendicular(direction), other = cross(direction, side);
     constraints.add(side, dot(side, on_line));
     constraints.add(other, dot(other, on_line));
   }
@@ -133,6 +135,12 @@ class EdgePatch {
     double count = 0;
     Vec3 sum;
     for (const std::uint32_t v : {a_, b_}) {
+      const Star& star = geometry_.star(v);
+      if (star.is_hub()) {
+        count += star.faces;
+        sum = sum + star.faces * seen(v);
+        continue;
+      }
       mesh_.each_edge(v, [&](std::uint32_t u, std::uint32_t) {
         if (u == a_ || u == b_) return;
         count += 1;

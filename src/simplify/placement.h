@@ -18,7 +18,7 @@ struct EdgePlacement {
 };
 
 /// Of the edge of c. `is_seam` per number of an edge: a line that is to stay in its place, as
-/// borders are; or empty. O(1) inside, O(d) for vertices of degree d in flat places and at lines.
+/// borders are; or empty. O(1) inside, O(d) for vertices of degree d at lines.
 EdgePlacement place(const CollapseMesh& mesh, const PatchGeometry& geometry, std::uint32_t c,
                     std::span<const std::uint8_t> is_seam);
 

@@ -41,8 +41,9 @@ class Simplifier {
         geometry_(mesh_, surface.points, scale_),
         creases_(triangles.mesh, surface, mesh_, options.keep_uv_seams),
         queue_(mesh_.edge_numbers()),
-        is_stale_(mesh_.edge_numbers(), 0),
-        ring_mark_(mesh_.vertex_numbers(), 0) {
+        priced_(mesh_.edge_numbers(), 0),
+        changed_(mesh_.vertex_numbers(), 0),
+        put_off_(mesh_.vertex_numbers(), 0) {
     if (options.keep_uv_seams) wedges_.emplace(triangles.mesh, surface, mesh_, creases_);
     report_.surface = surface.report;
     report_.dropped_faces = triangles.dropped;
@@ -57,6 +58,7 @@ class Simplifier {
     for (std::uint32_t e = 0; e < mesh_.edge_numbers() && !enough; ++e) price(e);
     for (std::uint32_t step = 0; mesh_.face_count() > options_.target_faces; ++step) {
       if (step % kStepsBetweenReports == 0 && !go_on()) return false;
+      if (queue_.empty()) bring_back_all();
       if (queue_.empty()) break;
       collapse_cheapest();
     }
@@ -92,11 +94,31 @@ class Simplifier {
         {(report_.faces_before - mesh_.face_count()) / all, mesh_.face_count()});
   }
 
+  [[nodiscard]] EdgePlacement placed(std::uint32_t c) const {
+    const bool on_seam = creases_.is_on_seam(mesh_.vertex(c));
+    return place(mesh_, geometry_, c,
+                 on_seam ? creases_.is_seam() : std::span<const std::uint8_t>());
+  }
+
+  [[nodiscard]] bool is_stale(std::uint32_t edge, std::uint32_t c) const {
+    const std::uint32_t a = mesh_.vertex(c), b = mesh_.vertex(CollapseMesh::next(c));
+    return std::max(changed_[a], changed_[b]) > priced_[edge];
+  }
+
+  void put_off(std::uint32_t edge, std::uint32_t c) {
+    queue_.remove(edge);
+    ++report_.refused;
+    for (const std::uint32_t corner : {c, CollapseMesh::next(c)}) {
+      std::uint32_t& changes = put_off_[mesh_.vertex(corner)];
+      changes = std::max(changes, 1U);
+    }
+  }
+
   void price(std::uint32_t edge) {
     const std::uint32_t c = mesh_.corner_of_edge(edge);
-    is_stale_[edge] = 0;
+    priced_[edge] = collapses_;
     if (creases_.allow(mesh_, c)) {
-      queue_.set(edge, place(mesh_, geometry_, c, creases_.is_seam()).cost);
+      queue_.set(edge, placed(c).cost);
     } else {
       queue_.remove(edge);
     }
@@ -105,15 +127,12 @@ class Simplifier {
   /// Or takes its edge out of the queue, until something near it changes; or finds its cost anew.
   void collapse_cheapest() {
     const std::uint32_t edge = queue_.top(), c = mesh_.corner_of_edge(edge);
-    if (is_stale_[edge] != 0) return price(edge);
-    const Vec3 point = place(mesh_, geometry_, c, creases_.is_seam()).point;
-    if (!may_collapse(c, point)) {
-      queue_.remove(edge);
-      ++report_.refused;
-      return;
-    }
+    if (is_stale(edge, c)) return price(edge);
+    const Vec3 point = placed(c).point;
+    if (!may_collapse(c, point)) return put_off(edge, c);
     const std::uint32_t kept = mesh_.vertex(c);
     creases_.before_collapse(mesh_, c);
+    geometry_.before_collapse(c);
     if (wedges_) wedges_->apply(mesh_, c);
     for (const std::uint32_t gone : mesh_.collapse(c)) {
       if (gone != kNone) queue_.remove(gone);
@@ -123,32 +142,46 @@ class Simplifier {
   }
 
   [[nodiscard]] bool may_collapse(std::uint32_t c, const Vec3& point) {
-    return mesh_.can_collapse(c) && !creases_.closes_chart(mesh_, c) &&
-           !geometry_.spoils_triangle(c, point) &&
+    return !creases_.closes_chart(mesh_, c) && !geometry_.spoils_triangle(c, point) &&
+           mesh_.can_collapse(c) &&
            (!wedges_ || wedges_->prepare(mesh_, geometry_, creases_, c, point));
   }
 
-  /// The edges of the vertex and those between its neighbours at once; those farther out, of which
-  /// one end's triangles have changed, when they become the cheapest.
+  /// The edges of the vertex and those across from it at once; others, of which one end's triangles
+  /// have changed, when they become the cheapest.
   void price_around(std::uint32_t v) {
-    ++ring_stamp_;
-    ring_.clear();
-    ring_mark_[v] = ring_stamp_;
+    ++collapses_;
+    mesh_.each_corner(v, [&](std::uint32_t c) { price(mesh_.edge(CollapseMesh::next(c))); });
     mesh_.each_edge(v, [&](std::uint32_t u, std::uint32_t c) {
-      ring_.push_back(u);
       price(mesh_.edge(c));
+      changed_[u] = collapses_;
     });
-    for (const std::uint32_t u : ring_) ring_mark_[u] = ring_stamp_;
-    for (const std::uint32_t u : ring_) {
-      mesh_.each_edge(u, [&](std::uint32_t w, std::uint32_t c) {
-        const std::uint32_t edge = mesh_.edge(c);
-        if (ring_mark_[w] != ring_stamp_ && queue_.has(edge)) {
-          is_stale_[edge] = 1;
-        } else if (w != v && (ring_mark_[w] != ring_stamp_ || w < u)) {
-          price(edge);
-        }
-      });
+    put_off_[v] = 0;
+    mesh_.each_edge(v, [&](std::uint32_t u, std::uint32_t) { bring_back_around(u); });
+  }
+
+  /// Edges that were refused, as something near them has changed. Those of a hub once a quarter of
+  /// its triangles have.
+  void bring_back_around(std::uint32_t v) {
+    if (put_off_[v] == 0) return;
+    const std::uint32_t changes = put_off_[v]++;
+    const Star& star = geometry_.star(v);
+    if (star.is_hub() && changes < star.faces / 4) return;
+    put_off_[v] = 0;
+    mesh_.each_edge(v, [&](std::uint32_t, std::uint32_t c) {
+      if (!queue_.has(mesh_.edge(c))) price(mesh_.edge(c));
+    });
+  }
+
+  /// Those that still wait for more changes at a hub.
+  void bring_back_all() {
+    for (std::uint32_t e = 0; e < mesh_.edge_numbers(); ++e) {
+      const std::uint32_t c = mesh_.corner_of_edge(e);
+      if (c == kNone) continue;
+      const auto waits = [&](std::uint32_t corner) { return put_off_[mesh_.vertex(corner)] > 1; };
+      if (waits(c) || waits(CollapseMesh::next(c))) price(e);
     }
+    for (std::uint32_t& changes : put_off_) changes = std::min(changes, 1U);
   }
 
   void add_corner(std::uint32_t c, std::vector<std::uint32_t>& place,
@@ -180,9 +213,10 @@ class Simplifier {
   Creases creases_;
   EdgeQueue queue_;
   std::optional<UvWedges> wedges_;
-  std::vector<std::uint8_t> is_stale_;  ///< per edge
-  std::vector<std::uint32_t> ring_, ring_mark_;
-  std::uint32_t ring_stamp_ = 0;
+  std::uint32_t collapses_ = 0;
+  std::vector<std::uint32_t> priced_;   ///< per edge: after so many collapses
+  std::vector<std::uint32_t> changed_;  ///< per vertex: its triangles, by that collapse
+  std::vector<std::uint32_t> put_off_;  ///< per vertex: 0, or an edge was; 1 + changes since
   SimplifyReport report_;
 };
 

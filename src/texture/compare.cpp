@@ -46,12 +46,12 @@ class Window {
 };
 
 /// Along rows and then down columns; both row by row, as they lie in memory.
-Values blurred(const Values& values, int width, int height) {
+Values blurred(const Values& values, int width, int height, int threads) {
   const Window across(width), down(height);
   const auto row = [width](auto& of, int y) { return of.data() + std::size_t{1} * y * width; };
   Values rows(values.size(), 0.0), result(values.size(), 0.0);
   const auto each_row = [&](auto&& job) {
-    parallel_for(static_cast<std::size_t>(height), thread_count(0),
+    parallel_for(static_cast<std::size_t>(height), thread_count(threads),
                  [&](std::size_t y) { job(static_cast<int>(y)); });
   };
   each_row([&](int y) {
@@ -75,7 +75,8 @@ Values blurred(const Values& values, int width, int height) {
   return result;
 }
 
-double mean_ssim(const Texture& a, const Texture& b, std::span<const std::uint8_t> mask) {
+double mean_ssim(const Texture& a, const Texture& b, std::span<const std::uint8_t> mask,
+                 int threads) {
   constexpr double kC1 = 0.01 * 0.01, kC2 = 0.03 * 0.03;
   const std::size_t count = a.texel_count();
   Values x(count), y(count), xx(count), yy(count), xy(count);
@@ -88,7 +89,7 @@ double mean_ssim(const Texture& a, const Texture& b, std::span<const std::uint8_
     xy[i] = x[i] * y[i];
   }
   for (Values* values : {&x, &y, &xx, &yy, &xy}) {
-    *values = blurred(*values, a.width, a.height);
+    *values = blurred(*values, a.width, a.height, threads);
   }
   double sum = 0;
   std::size_t seen = 0;
@@ -104,7 +105,8 @@ double mean_ssim(const Texture& a, const Texture& b, std::span<const std::uint8_
 
 }  // namespace
 
-Likeness compare(const Texture& a, const Texture& b, std::span<const std::uint8_t> mask) {
+Likeness compare(const Texture& a, const Texture& b, std::span<const std::uint8_t> mask,
+                 int threads) {
   Likeness likeness;
   double squares = 0;
   const auto channels = static_cast<std::size_t>(a.channels);
@@ -118,7 +120,7 @@ Likeness compare(const Texture& a, const Texture& b, std::span<const std::uint8_
   }
   const double mean = squares / static_cast<double>(likeness.pixels * channels);
   likeness.psnr = mean > 0 ? -10 * std::log10(mean) : std::numeric_limits<double>::infinity();
-  likeness.ssim = mean_ssim(a, b, mask);
+  likeness.ssim = mean_ssim(a, b, mask, threads);
   return likeness;
 }
 

@@ -106,11 +106,11 @@ void fill_row(Texture& texture, const TexelMask& inside, const std::vector<int>&
 
 }  // namespace
 
-void dilate(Texture& texture, const TexelMask& inside, Wrap wrap) {
+void dilate(Texture& texture, const TexelMask& inside, Wrap wrap, int threads) {
   const int width = texture.width, height = texture.height;
   const std::vector<int> offset = nearest_rows(width, height, inside, wraps_v(wrap));
   constexpr int kBand = 64;  // rows that share an envelope's memory
-  parallel_for(static_cast<std::size_t>((height + kBand - 1) / kBand), thread_count(0),
+  parallel_for(static_cast<std::size_t>((height + kBand - 1) / kBand), thread_count(threads),
                [&](std::size_t band) {
                  Envelope envelope(width, wraps_u(wrap));
                  const int begin = static_cast<int>(band) * kBand;

@@ -122,8 +122,11 @@ class Bake(support.CommandTest):
     def test_same_bytes_for_any_number_of_threads(self):
         for threads in (1, 3):
             self.bake("--also", "occlusion=ao.png", "--resolution", 32, "--threads", threads)
-            self.path("ao.png").rename(self.path(f"{threads}.png"))
-        self.assertEqual(self.path("1.png").read_bytes(), self.path("3.png").read_bytes())
+            for name in ("n", "ao"):
+                self.path(f"{name}.png").rename(self.path(f"{name}-{threads}.png"))
+        for name in ("n", "ao"):
+            self.assertEqual(self.path(f"{name}-1.png").read_bytes(),
+                             self.path(f"{name}-3.png").read_bytes(), name)
 
     def test_says_what_was_left_out(self):
         self.write("low.obj", SQUARE + "f 1 2 3\n")

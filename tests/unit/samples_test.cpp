@@ -75,9 +75,21 @@ TEST(Samples, NoneOfWhatHasNoAreaOrNoPlace) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double infinity = std::numeric_limits<double>::infinity();
   for (const Vec2 p :
-       {Vec2{2, 2}, {1, 1}, {9, 9}, {nan, 3}, {3, infinity}, {-1e300, 4}, {3, 2e6}}) {
+       {Vec2{2, 2}, {1, 1}, {9, 9}, {nan, 3}, {3, infinity}, {-1e300, 4}, {3, 2e12}}) {
     const std::vector<int> visits = visits_of({{{{1, 1}, {9, 9}, p}}});
     EXPECT_EQ(std::count(visits.begin(), visits.end(), 0), std::ssize(visits)) << p.x;
+  }
+}
+
+TEST(Samples, OfTrianglesFarLargerThanThePicture) {
+  for (const double size : {3e6, 1e9, 1e11}) {
+    const Vec2 a{-size, -size}, b{2 * size, -0.5 * size}, c{20.5, size};
+    for (const int visits : visits_of({{{a, b, c}}})) ASSERT_EQ(visits, 1) << size;
+    // Two that share an edge across the picture.
+    const Vec2 low{20.25, -size}, high{20.25, size}, left{-size, 3}, right{size, 5};
+    for (const int visits : visits_of({{{low, high, left}}, {{high, low, right}}})) {
+      ASSERT_EQ(visits, 1) << size;
+    }
   }
 }
 

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "simplify/collapse_mesh.h"
+#include "simplify/patch_geometry.h"
 #include "simplify_checks.h"
 #include "wrapatlas/charts.h"
 
@@ -230,6 +232,60 @@ TEST(Simplify, ObjectsStayApart) {
     EXPECT_EQ(less.mesh.face_object[f], mesh.face_object[less.face_source[f]]);
   }
   EXPECT_GT(std::count(less.mesh.face_object.begin(), less.mesh.face_object.end(), 3), 30);
+}
+
+/// `count` triangles around each of two points.
+Mesh two_hubs(std::uint32_t count, const Vec3& top, const Vec3& bottom) {
+  std::vector<Vec3> positions{top, bottom};
+  std::vector<test::Face> faces;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const double angle = 2 * std::numbers::pi * i / count;
+    positions.push_back({std::cos(angle), std::sin(angle), 0});
+    const std::uint32_t here = 2 + i, next = 2 + (i + 1) % count;
+    faces.push_back({0, here, next});
+    faces.push_back({1, next, here});
+  }
+  return bare_mesh(positions, faces);
+}
+
+TEST(Simplify, ManyTrianglesAroundAPoint) {
+  // Were the work at a hub that of all its triangles each time, this would take a minute.
+  for (const Vec3& bottom : {Vec3{0, 0, -0.2}, {0.1, 0, 0}}) {
+    const Mesh mesh = two_hubs(40000, {0, 0, 1}, bottom);
+    const Simplification less = simplified(mesh, 400);
+    EXPECT_EQ(less.report.faces_after, 400U);
+    EXPECT_EQ(topology_of(triangles_of(less.mesh)), (test::Topology{true, 2, 1, 0}));
+    EXPECT_NEAR(volume_of(less.mesh), volume_of(mesh), 1e-11);
+  }
+}
+
+TEST(Simplify, SumsAtAHubDoNotDrift) {
+  const Mesh mesh = two_hubs(600, {0, 0, 1}, {0, 0, -1e-3});
+  const Result<Surface> surface = build_surface(mesh);
+  ASSERT_TRUE(surface);
+  CollapseMesh collapsed(*surface);
+  PatchGeometry geometry(collapsed, surface->points);
+  std::mt19937_64 random(9);
+  for (std::uint32_t c = 0; c < 3 * 900 && collapsed.face_count() > 60; ++c) {
+    if (!collapsed.has_face(c / 3)) continue;
+    const std::uint32_t v = collapsed.vertex(c), w = collapsed.vertex(CollapseMesh::next(c));
+    if (v < 2 || w < 2 || !collapsed.can_collapse(c)) continue;  // along the ring
+    const Vec3 point = 0.5 * (geometry.position(v) + geometry.position(w)) +
+                       Vec3{0, 0, test::uniform(random, -1e-3, 1e-3)};
+    geometry.before_collapse(c);
+    collapsed.collapse(c);
+    geometry.move(v, point);
+    for (std::uint32_t u = 0; u < collapsed.vertex_numbers(); ++u) {
+      if (collapsed.corner_of_vertex(u) == kNone) continue;
+      Star star;
+      collapsed.each_corner(u, [&](std::uint32_t k) { star.add(geometry.normal(k / 3)); });
+      ASSERT_EQ(geometry.star(u).faces, star.faces);
+      ASSERT_LT(length(geometry.star(u).normal - star.normal), 1e-13);
+      ASSERT_NEAR(geometry.star(u).squares.trace(), star.squares.trace(),
+                  1e-12 * star.squares.trace());
+    }
+  }
+  EXPECT_LT(collapsed.face_count(), 700U);
 }
 
 TEST(Simplify, IsTheSameEveryTimeAndAtAnySize) {

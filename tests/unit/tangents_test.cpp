@@ -58,6 +58,36 @@ TEST(SmoothNormals, EndAtHardEdges) {
   EXPECT_LT(length(smooth_normals(mesh, kPi / 2 + 1e-9)[0] - smooth[0]), 1e-12);
 }
 
+/// Two quads that meet in the edge from 0 to 2, where 1 is, with a triangle of no area in between.
+Mesh quads_beside_a_sliver(const Vec3& left, const Vec3& right) {
+  return test::bare_mesh(
+      {{0, 0, 0}, {0, 1, 0}, {0, 2, 0}, left, left + Vec3{0, 2, 0}, right, right + Vec3{0, 2, 0}},
+      {{0, 2, 4, 3}, {0, 1, 2}, {5, 6, 2, 1, 0}});
+}
+
+TEST(SmoothNormals, FacesWithoutAreaMakeNoHardEdges) {
+  const Mesh bent = quads_beside_a_sliver({-1, 0, 0.1}, {1, 0, 0.1});
+  const CornerVectors normals = smooth_normals(bent, 0.5);
+  EXPECT_LT(length(normals[0] - normals[11]), 1e-12);  // at point 0
+  EXPECT_LT(length(normals[1] - normals[9]), 1e-12);   // at point 2
+  EXPECT_LT(length(normals[0] - normals[4]), 1e-12);
+  EXPECT_GT(length(normals[4]), 0.5);
+  // Nor do they bridge those that there are.
+  const Mesh corner = quads_beside_a_sliver({-1, 0, 0}, {0, 0, -1});
+  const CornerVectors hard = smooth_normals(corner, 0.5);
+  EXPECT_GT(length(hard[0] - hard[11]), 1);
+  EXPECT_GT(length(hard[4]), 0.5);
+}
+
+TEST(SmoothNormals, AllFacesAtAnEdgeAreCompared) {
+  // The first and the third of them lie in a plane, the second stands on it.
+  const Mesh mesh = test::bare_mesh({{0, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, 0, 1}, {1, 0, 0.1}},
+                                    {{0, 1, 2}, {0, 1, 3}, {1, 0, 4}});
+  const CornerVectors normals = smooth_normals(mesh, 0.5);
+  EXPECT_LT(length(normals[0] - normals[7]), 1e-12);
+  EXPECT_GT(length(normals[0] - normals[3]), 0.5);
+}
+
 TEST(SmoothNormals, AreThoseOfASphere) {
   const Mesh mesh = test::ball(32);
   const CornerVectors normals = smooth_normals(mesh);

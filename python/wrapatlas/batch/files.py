@@ -17,7 +17,7 @@ fsspec: Any = importlib.import_module("fsspec")  # comes with Dask; it has no ty
 # Whichever a file system gives of these changes when a file does.
 MARKS = ("size", "mtime", "etag", "ETag", "LastModified", "last_modified", "updated", "md5Hash", "created")
 PICTURE_LINE = re.compile(r"^\s*(?:map_\w+|bump|disp|decal|norm|refl)\s+(.+?)\s*$", re.M | re.I)
-PICTURE_OPTION = re.compile(r"^-\w+\s+(?:(?:on|off|[-+.\d]\S*|[rgbmlz]|\w+)\s+)(?:[-+.\d]\S*\s+)*")
+PICTURE_OPTION = re.compile(r"^-\w+\s+(?:on|off|[rgbmlz]|[-+]?[.\d]\S*|\w+)\s+(?:[-+]?[.\d]\S*\s+)*")
 MOST_REFERENCES = 10_000
 
 

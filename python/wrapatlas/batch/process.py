@@ -25,13 +25,17 @@ class Ended:
     stopped: str = ""
 
 
-def resident_mb(pid: int) -> float:
-    """The resident set of a process in MiB; 0 where the system does not say."""
+def peak_resident_mb(pid: int) -> float:
+    """The largest resident set of a process so far in MiB; 0 where the system does not say. Not that
+    of getrusage, which also counts what the process was before it became the command."""
     try:
-        with open(f"/proc/{pid}/statm", encoding="ascii") as file:
-            return int(file.read().split()[1]) * os.sysconf("SC_PAGE_SIZE") / 2**20
+        with open(f"/proc/{pid}/status", encoding="ascii", errors="replace") as file:
+            for line in file:
+                if line.startswith("VmHWM:"):
+                    return int(line.split()[1]) / 2**10
     except (OSError, IndexError, ValueError):
-        return 0.0
+        pass
+    return 0.0
 
 
 def run_limited(command: Sequence[str], folder: str, log: IO[bytes], seconds: Optional[float],
@@ -42,6 +46,7 @@ def run_limited(command: Sequence[str], folder: str, log: IO[bytes], seconds: Op
     process = subprocess.Popen([*launch, *command], cwd=folder, stdin=subprocess.DEVNULL, stdout=log,
                                stderr=subprocess.STDOUT, start_new_session=True)
     stopped = ""
+    peak = 0.0
     pause = 0.005
     try:
         while True:
@@ -51,7 +56,8 @@ def run_limited(command: Sequence[str], folder: str, log: IO[bytes], seconds: Op
             now = time.monotonic() - begin
             if seconds is not None and now > seconds:
                 stopped = stopped or "time"
-            if memory_mb is not None and resident_mb(process.pid) > memory_mb:
+            peak = peak_resident_mb(process.pid) or peak  # 0 when it has just ended
+            if memory_mb is not None and peak > memory_mb:
                 stopped = stopped or "memory"
             if stopped:
                 os.killpg(process.pid, signal.SIGKILL)
@@ -63,5 +69,6 @@ def run_limited(command: Sequence[str], folder: str, log: IO[bytes], seconds: Op
         raise
     code = os.WEXITSTATUS(status) if os.WIFEXITED(status) else -os.WTERMSIG(status)
     process.returncode = code  # we waited for it ourselves, for its memory
-    unit = 2**20 if sys.platform == "darwin" else 2**10
-    return Ended(code, time.monotonic() - begin, usage.ru_maxrss / unit, stopped)
+    if sys.platform == "darwin":
+        peak = usage.ru_maxrss / 2**20
+    return Ended(code, time.monotonic() - begin, peak, stopped)

@@ -18,9 +18,7 @@ sys.path[:0] = [str(pathlib.Path(__file__).resolve().parents[1]), str(pathlib.Pa
 
 import distributed  # noqa: E402
 import psutil  # noqa: E402
-from batch_support import (  # noqa: E402
-    ENVIRONMENT, QUICK, ROOT, InFolder, batch, box, command_line, record, results, states, table)
-
+from batch_support import ENVIRONMENT, QUICK, ROOT, InFolder, batch, box, command_line, record, results, states, table  # noqa: E402
 from wrapatlas.batch import run  # noqa: E402
 
 BROKEN = {"broken garbage.off": b"garbage\n", "broken empty.off": b"",

@@ -11,6 +11,7 @@ import signal
 import sqlite3
 import threading
 import time
+from concurrent.futures import CancelledError
 from dataclasses import asdict, dataclass
 from typing import Any, Dict, Iterator, List, Optional, Sequence
 
@@ -225,7 +226,10 @@ class Batch:
                     return
                 finished = self.wait(client, list(under_way))
                 for future in finished:
-                    self.take(outcome_of(future, under_way.pop(future)))
+                    outcome = outcome_of(future, under_way[future])
+                    if outcome is not None:
+                        del under_way[future]
+                        self.take(outcome)
                 if time.monotonic() - committed > COMMIT_EVERY:
                     self.store.commit()
                     committed = time.monotonic()
@@ -254,9 +258,16 @@ class Batch:
             raise UsageError(f"the first {USAGE_FAILURES} assets failed alike, {outcome.reason}")
 
 
-def outcome_of(future: Any, name: str) -> Outcome:
+def outcome_of(future: Any, name: str) -> Optional[Outcome]:
+    """What a worker says of an asset. None: it had ended, and the worker with it before it told us;
+    Dask has it done again, which finds the results there."""
+    distributed: Any = importlib.import_module("distributed")
     try:
-        outcome: Outcome = future.result()
+        outcome: Outcome = future.result(timeout=2.0)
         return outcome
+    except (TimeoutError, distributed.TimeoutError):
+        return None
+    except CancelledError as error:
+        raise BatchError("the scheduler of Dask went away; what is done stays done") from error
     except Exception as error:  # above all KilledWorker: it took several workers down
         return Outcome(name, "failed", f"its workers died ({type(error).__name__})")

@@ -1,7 +1,8 @@
 """The batch on a cluster of processes, some of which are killed; on disks that are full or closed.
 
 With WRAPATLAS_BATCH_PSB=FOLDER the kill of a worker is also tried on all meshes of a folder (the
-Princeton Segmentation Benchmark), which takes minutes; WRAPATLAS_BATCH_OUT=FOLDER keeps the results.
+Princeton Segmentation Benchmark), which takes minutes; WRAPATLAS_BATCH_OPTIONS are those of the command (`--time 0`),
+WRAPATLAS_BATCH_OUT=FOLDER keeps the results.
 """
 
 import os
@@ -105,7 +106,7 @@ class KilledWorker(InFolder):
         for path in pathlib.Path(os.environ["WRAPATLAS_BATCH_PSB"]).glob("*.off"):
             (self.meshes / path.name).symlink_to(path)
         out = pathlib.Path(os.environ.get("WRAPATLAS_BATCH_OUT", self.out))
-        self.compare(self.meshes, ["--time", "0"], out)
+        self.compare(self.meshes, os.environ.get("WRAPATLAS_BATCH_OPTIONS", "--time 0").split(), out)
 
 
 class Stopped(InFolder):
@@ -127,7 +128,7 @@ class Stopped(InFolder):
         self.assertEqual(self.left_over(), [])
 
     def test_interrupted(self):
-        for name in ("SIGINT", "SIGTERM"):
+        for name in ("SIGTERM", "SIGINT"):
             with self.subTest(signal=name):
                 shutil.rmtree(self.out, ignore_errors=True)
                 program = self.start()

@@ -63,7 +63,9 @@ std::shared_ptr<Baked> bake_maps(const PyMesh& low, const PyMesh& high,
   options.v_points_down = low.model->v_points_down;
   LongWork work(std::move(progress), false);
   BakeResult result = work.run<BakeResult>([&] {
-    BakeSource source{&high.mesh(), nullptr, high.model->v_points_down};
+    BakeSource source;
+    source.mesh = &high.mesh();
+    source.v_points_down = high.model->v_points_down;
     if (color) {
       srgb_to_linear(texture);
       source.color = &texture;
@@ -138,6 +140,7 @@ struct TransferSettings {
   TransferOptions options;
   TextureRole role = TextureRole::color;
   Repeat repeat = Repeat::repeat;
+  bool keep_tangents = false;  ///< of all faces
 };
 
 /// `textures`: of each group of faces; empty arrays are none.
@@ -163,6 +166,8 @@ nb::ndarray<nb::numpy, float> transfer_texture(const PyMesh& before, const PyMes
   }
   TransferOptions options = settings.options;
   options.v_points_down = before.model->v_points_down;
+  const std::vector<std::uint8_t> keeps(settings.keep_tangents ? group.size() : 0, 1);
+  options.keeps_tangents = keeps;
   LongWork work(std::move(progress), false);
   auto made = work.run<std::vector<Texture>>([&] {
     options.progress = [&work](double share) { return work.tell("transfer", share); };
@@ -189,8 +194,8 @@ void bind_transfer(nb::module_& module) {
   add_choice(
       settings, "repeat", kRepeats, [](TransferSettings & s) -> auto& { return s.repeat; });
   settings.def_prop_rw(
-      "keep_tangents", [](const TransferSettings& s) { return s.options.keep_tangents; },
-      [](TransferSettings& s, bool on) { s.options.keep_tangents = on; });
+      "keep_tangents", [](const TransferSettings& s) { return s.keep_tangents; },
+      [](TransferSettings& s, bool on) { s.keep_tangents = on; });
   module.def("transfer", &transfer_texture, nb::arg("before"), nb::arg("after"),
              nb::arg("textures"), nb::arg("face_texture").none(), nb::arg("settings"),
              nb::arg("progress").none());

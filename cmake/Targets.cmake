@@ -40,12 +40,19 @@ function(wrapatlas_library target)
   foreach(folder IN LISTS ARGN)
     file(GLOB found CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/${folder}/*.cpp)
     list(APPEND sources ${found})
+    # As a unity build: files of one folder together, as their names differ.
+    set(number 0)
+    foreach(source IN LISTS found)
+      math(EXPR group "${number} / 8")
+      set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${folder}_${group})
+      math(EXPR number "${number} + 1")
+    endforeach()
   endforeach()
   add_library(${target} ${sources})
   string(REPLACE wrapatlas_ "" name ${target})
   add_library(wrapatlas::${name} ALIAS ${target})
   set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON EXPORT_NAME ${name}
-                        VERSION ${PROJECT_VERSION}
+                        UNITY_BUILD_MODE GROUP VERSION ${PROJECT_VERSION}
                         SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
   target_include_directories(${target}
     PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>

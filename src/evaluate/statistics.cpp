@@ -34,13 +34,13 @@ double spread(std::span<const ShapeMean> means) {
   return low == means.end() || high->mean == 0 ? 0 : 1 - low->mean / high->mean;
 }
 
-std::string percent(double share) { return fmt::format("{:.1f} %", 100 * share); }
+std::string percent_text(double share) { return fmt::format("{:.1f} %", 100 * share); }
 
 Claim best_claim(std::span<const Summary> table, const char* where, double paper) {
   Claim claim;
   claim.text = fmt::format("modulo packs densest on {} % of the meshes ({})", paper, where);
   const double share = find(table, "modulo")->best_of_paper;
-  claim.measured = percent(share);
+  claim.measured = percent_text(share);
   claim.holds = share >= 0.9;
   return claim;
 }
@@ -170,7 +170,7 @@ std::vector<Claim> claims(std::span<const MeshResult> meshes,
   for (const char* name : kPaper) {
     const double fall = spread(means_by_shape(meshes, name));
     shape.measured +=
-        fmt::format("{}{} {}", shape.measured.empty() ? "" : ", ", name, percent(fall));
+        fmt::format("{}{} {}", shape.measured.empty() ? "" : ", ", name, percent_text(fall));
     if (std::string(name) != "modulo")
       least_of_others = std::min(least_of_others, fall);
     else
@@ -181,7 +181,7 @@ std::vector<Claim> claims(std::span<const MeshResult> meshes,
   raster.text = "most of modulo's time is spent rasterising (variable aspect ratio: 65 %)";
   const Summary& ours = *find(variable, "modulo");
   const double share = ours.seconds > 0 ? ours.raster_seconds / ours.seconds : 0;
-  raster.measured = percent(share);
+  raster.measured = percent_text(share);
   raster.holds = share > 0.5;
   result.push_back(raster);
   return result;

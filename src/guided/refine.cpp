@@ -5,7 +5,7 @@
 namespace wrapatlas {
 namespace {
 
-constexpr double kSmallest = 0.5;  ///< of the first scale: below it, the layout is given up
+constexpr double kLeastScale = 0.5;  ///< of the first scale: below it, the layout is given up
 
 }  // namespace
 
@@ -47,7 +47,7 @@ std::optional<Packing> refine(std::span<const ChartShape> shapes, const Frame& f
       // The next attempt begins where this one came closest.
       if (fits && !how.exact) layout.spots = to_spots(places, library, domain);
       layout.scale *= 1 - how.first_step;
-      if (layout.scale < kSmallest * start.scale) break;
+      if (layout.scale < kLeastScale * start.scale) break;
       continue;
     } else {
       layout = good;

@@ -67,9 +67,9 @@ TransferSource source_of(const Json& json, const GltfTextureUse& use) {
   return source;
 }
 
-class Reader {
+class ImageReader {
  public:
-  Reader(const GltfContents& contents, bool base_colors_alone)
+  ImageReader(const GltfContents& contents, bool base_colors_alone)
       : contents_(contents), file_(contents.file), base_colors_alone_(base_colors_alone) {}
 
   Result<ModelTextures> read() {
@@ -240,7 +240,7 @@ void drop_unused_images(Json& json) {
 }  // namespace
 
 Result<ModelTextures> read_gltf_textures(const GltfContents& contents, bool base_colors_alone) {
-  return Reader(contents, base_colors_alone).read();
+  return ImageReader(contents, base_colors_alone).read();
 }
 
 void replace_gltf_textures(const GltfContents& contents, std::span<const NewTexture> textures,

@@ -10,7 +10,7 @@ namespace wrapatlas {
 namespace {
 
 /// A segment in coordinates across the way and along it.
-struct Span {
+struct ContactSpan {
   double low, high;        ///< across, low < high
   double at_low, at_high;  ///< along
 
@@ -36,8 +36,9 @@ Box2 swept(const Box2& box, Vec2 step) {
 Box2 moved_by(const Box2& box, Vec2 step) { return {box.min + step, box.max + step}; }
 
 /// The segments within a window. Those along the way are left out: their neighbours speak for them.
-std::vector<Span> spans_of(const Outline& outline, Vec2 offset, const Box2& window, Vec2 along) {
-  std::vector<Span> spans;
+std::vector<ContactSpan> spans_of(const Outline& outline, Vec2 offset, const Box2& window,
+                                  Vec2 along) {
+  std::vector<ContactSpan> spans;
   for (const OutlineSegment& segment : outline.segments) {
     const Vec2 a = segment.from + offset, b = segment.to + offset;
     Box2 box;
@@ -70,14 +71,14 @@ double first_contact(const Outline& still, const Outline& moved, Vec2 offset, Ve
   if (still_spans.empty()) return most;
   auto moved_spans = spans_of(moved, offset, swept(grown(still.box), Vec2{0, 0} - reach), along);
   std::sort(moved_spans.begin(), moved_spans.end(),
-            [](const Span& a, const Span& b) { return a.low < b.low; });
+            [](const ContactSpan& a, const ContactSpan& b) { return a.low < b.low; });
   double widest = 0;
-  for (const Span& span : moved_spans) widest = std::max(widest, span.high - span.low);
+  for (const ContactSpan& span : moved_spans) widest = std::max(widest, span.high - span.low);
 
   double least = most * distance;
-  for (const Span& a : still_spans) {
+  for (const ContactSpan& a : still_spans) {
     auto b = std::lower_bound(moved_spans.begin(), moved_spans.end(), a.low - widest,
-                              [](const Span& span, double low) { return span.low < low; });
+                              [](const ContactSpan& span, double low) { return span.low < low; });
     for (; b != moved_spans.end() && b->low < a.high; ++b) {
       const double low = std::max(a.low, b->low), high = std::min(a.high, b->high);
       if (!(low < high)) continue;

@@ -14,7 +14,7 @@ struct Quad {
   std::array<float, 4> weights{};
 };
 
-Quad texels_at(double place, int count, bool wraps) {
+Quad quad_at(double place, int count, bool wraps) {
   const double texel = texel_place(place, count, wraps);
   const int first = static_cast<int>(std::floor(texel));
   const double t = texel - first;
@@ -33,8 +33,8 @@ Quad texels_at(double place, int count, bool wraps) {
 }  // namespace
 
 TextureValue sample_bicubic(const Texture& texture, Vec2 uv, Wrap wrap) {
-  const Quad x = texels_at(uv.x, texture.width, wraps_u(wrap));
-  const Quad y = texels_at(uv.y, texture.height, wraps_v(wrap));
+  const Quad x = quad_at(uv.x, texture.width, wraps_u(wrap));
+  const Quad y = quad_at(uv.y, texture.height, wraps_v(wrap));
   TextureValue value{};
   for (int c = 0; c < texture.channels; ++c) {
     float sum = 0, low = 1e30F, high = -1e30F;

@@ -7,6 +7,9 @@ function(wrapatlas_compile_options target)
   if(WRAPATLAS_WERROR)
     target_compile_options(${target} PRIVATE -Werror)
   endif()
+  if(CMAKE_UNITY_BUILD) # names of one file are hidden by those of another
+    target_compile_options(${target} PRIVATE -Wno-shadow)
+  endif()
   # The same bits on every machine: no fused multiply-add behind the source's back.
   target_compile_options(${target} PRIVATE -ffp-contract=off)
   # Popcount and rounding in hardware: every x86 processor since 2009.

@@ -8,17 +8,14 @@ from typing import List, Optional
 
 from .engine import run
 from .errors import BatchError
+from .options import add_cluster_options, split_words
 
 EPILOG = """exit status: 0 all are done, 1 some failed, 2 usage, 3 no batch was possible, 130 interrupted.
 example: python -m wrapatlas.batch meshes/ -o out --recipe unwrap --time-limit 60 -- --resolution 2048"""
 
 
 def main(given: Optional[List[str]] = None) -> int:
-    words = sys.argv[1:] if given is None else given
-    options: List[str] = []
-    if "--" in words:
-        cut = words.index("--")
-        words, options = words[:cut], words[cut + 1:]
+    words, options = split_words(given)
     parser = argparse.ArgumentParser(
         prog="python -m wrapatlas.batch", description="Does every asset of a manifest by a recipe, on Dask.",
         epilog=EPILOG, formatter_class=argparse.RawDescriptionHelpFormatter)
@@ -26,10 +23,7 @@ def main(given: Optional[List[str]] = None) -> int:
     add("manifest", help=".csv or .jsonl file with a column `input`, or a folder of models; path or URL")
     add("-o", "--output", required=True, help="folder of the results, path or URL")
     add("--recipe", default="unwrap", help="unwrap, pack, transfer, bake, or a .json or .toml file (unwrap)")
-    add("--workers", type=int, help="processes of the local cluster (one a core)")
-    add("--scheduler", help="tcp://...: a Dask scheduler, instead of a local cluster")
-    add("--time-limit", type=float, metavar="S", help="seconds that an asset may take")
-    add("--memory-limit", type=int, metavar="MB", help="MiB that a command may hold")
+    add_cluster_options(parser)
     add("--retries", type=int, default=1, metavar="K", help="further attempts after a crash or an error of storage (1)")
     add("--keep-failed", action="store_true", help="leave what failed before, unless something changed")
     add("--state", metavar="DIR", help="folder of table, page and state (the output, if that is local)")

@@ -22,6 +22,7 @@ from . import manifest
 from .engine import Summary, run
 from .errors import BatchError, UsageError
 from .files import is_local, local_path
+from .options import add_cluster_options, split_words
 
 METHODS = "lprm02,swg03,zsgs04,modulo"
 
@@ -141,21 +142,14 @@ def write_mesh(folder: str, result: Dict[str, Any], parts: List[Dict[str, Any]])
 
 
 def main(given: Optional[List[str]] = None) -> int:
-    words = sys.argv[1:] if given is None else given
-    options: List[str] = []
-    if "--" in words:
-        cut = words.index("--")
-        words, options = words[:cut], words[cut + 1:]
+    words, options = split_words(given)
     parser = argparse.ArgumentParser(prog="python -m wrapatlas.batch.evaluate",
                                      description="wrapatlas bench as a batch, a task for each mesh and method.")
     add = parser.add_argument
     add("meshes", help="folder of models, or a manifest")
     add("-o", "--output", required=True, help="folder of the results; OUT/joined is for wrapatlas report")
     add("--methods", default=METHODS, help=f"as of bench ({METHODS})")
-    add("--workers", type=int, help="processes of the local cluster (one a core)")
-    add("--scheduler", help="tcp://...: a Dask scheduler, instead of a local cluster")
-    add("--time-limit", type=float, metavar="S", help="seconds that a task may take")
-    add("--memory-limit", type=int, metavar="MB", help="MiB that bench may hold")
+    add_cluster_options(parser)
     told = parser.parse_args(words)
     try:
         summary, joined = evaluate(told.meshes, told.output, told.methods.split(","), options, workers=told.workers,

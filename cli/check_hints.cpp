@@ -10,11 +10,6 @@
 namespace wrapatlas::cli {
 namespace {
 
-Wrap wrap_on(bool u, bool v) {
-  if (u) return v ? Wrap::uv : Wrap::u;
-  return v ? Wrap::v : Wrap::none;
-}
-
 /// The axes along which UVs leave [0,1] by more than rounding.
 Wrap axes_left(const Mesh& mesh) {
   constexpr double kRounding = 1e-5;

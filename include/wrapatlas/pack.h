@@ -19,6 +19,10 @@ enum class Method { lprm02, swg03, zsgs04, modulo, guided };
 enum class Wrap { none, u, v, uv };
 inline bool wraps_u(Wrap wrap) { return wrap == Wrap::u || wrap == Wrap::uv; }
 inline bool wraps_v(Wrap wrap) { return wrap == Wrap::v || wrap == Wrap::uv; }
+inline Wrap wrap_on(bool u, bool v) {
+  if (u) return v ? Wrap::uv : Wrap::u;
+  return v ? Wrap::v : Wrap::none;
+}
 
 /// When does a grid cell belong to a chart?
 enum class Coverage {

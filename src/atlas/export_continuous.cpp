@@ -20,7 +20,7 @@ AtlasMesh export_continuous(const Mesh& mesh, const ChartSet& charts, const Pack
       atlas.texcoords.push_back(uv + tile);
     }
   }
-  atlas.wrap = leaves_u ? (leaves_v ? Wrap::uv : Wrap::u) : (leaves_v ? Wrap::v : Wrap::none);
+  atlas.wrap = wrap_on(leaves_u, leaves_v);
 
   for (std::size_t face = 0; face < mesh.face_count(); ++face) {
     const std::uint32_t chart = charts.face_chart[face];

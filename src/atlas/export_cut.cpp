@@ -77,7 +77,7 @@ class CutExporter {
       beyond_u = beyond_u || tiles_.back().x != 0;
       beyond_v = beyond_v || tiles_.back().y != 0;
     }
-    atlas_.wrap = beyond_u ? (beyond_v ? Wrap::uv : Wrap::u) : (beyond_v ? Wrap::v : Wrap::none);
+    atlas_.wrap = wrap_on(beyond_u, beyond_v);
   }
 
   /// The points of a triangle's side that lies inside its polygon, for the triangle behind it.

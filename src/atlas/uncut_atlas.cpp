@@ -33,9 +33,8 @@ void place_part(AtlasMesh& whole, std::span<const std::uint32_t> faces, const At
       whole.corner_texcoord[to] = texcoord == kNone ? kNone : first + texcoord;
     }
   }
-  const bool u = wraps_u(whole.wrap) || wraps_u(part.wrap);
-  const bool v = wraps_v(whole.wrap) || wraps_v(part.wrap);
-  whole.wrap = u ? (v ? Wrap::uv : Wrap::u) : (v ? Wrap::v : Wrap::none);
+  whole.wrap =
+      wrap_on(wraps_u(whole.wrap) || wraps_u(part.wrap), wraps_v(whole.wrap) || wraps_v(part.wrap));
 }
 
 }  // namespace wrapatlas

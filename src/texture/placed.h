@@ -22,8 +22,7 @@ inline Vec2 place_of(const TransferSource& source, Vec2 uv) {
 }
 
 inline Wrap wrap_of(const TransferSource& source) {
-  const bool u = source.across == Repeat::repeat, v = source.down == Repeat::repeat;
-  return u ? v ? Wrap::uv : Wrap::u : v ? Wrap::v : Wrap::none;
+  return wrap_on(source.across == Repeat::repeat, source.down == Repeat::repeat);
 }
 
 /// Texture space per unit of UV space.

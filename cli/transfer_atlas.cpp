@@ -25,40 +25,11 @@ Result<Mesh> unwrapped(const TransferArguments& a, const Mesh& texels, bool v_po
   };
   auto made = unwrap(texels, options);
   if (!made) return made.error();
-  Mesh& mesh = made->mesh;
-  std::vector<double> before(made->charts.size()), after(made->charts.size());
-  const auto area = [](const Mesh& of, std::uint32_t face) {
-    double twice = 0;
-    const std::uint32_t first = of.face_begin[face];
-    for (std::uint32_t c = first + 1; c + 1 < of.face_begin[face + 1]; ++c) {
-      twice +=
-          signed_area2(of.texcoords[of.corner_texcoord[first]], of.texcoords[of.corner_texcoord[c]],
-                       of.texcoords[of.corner_texcoord[c + 1]]);
-    }
-    return 0.5 * std::abs(twice);
-  };
-  double all_before = 0, all_after = 0;
-  for (std::uint32_t face = 0; face < mesh.face_count(); ++face) {
-    const std::uint32_t chart = made->face_chart[face];
-    before[chart] += area(texels, face);
-    after[chart] += area(mesh, face);
-    all_before += area(texels, face);
-    all_after += area(mesh, face);
+  scale_to_texels(made->mesh, made->face_chart, texels);
+  if (v_points_down) {
+    for (Vec2& uv : made->mesh.texcoords) uv.y = -uv.y;
   }
-  const double usual = all_after > 0 ? std::sqrt(all_before / all_after) : 1;
-  std::vector<Vec2> scaled(mesh.corner_count());
-  for (std::uint32_t face = 0; face < mesh.face_count(); ++face) {
-    const std::uint32_t chart = made->face_chart[face];
-    const bool known = before[chart] > 0 && after[chart] > 0;
-    const double scale = known ? std::sqrt(before[chart] / after[chart]) : usual;
-    for (std::uint32_t c = mesh.face_begin[face]; c < mesh.face_begin[face + 1]; ++c) {
-      scaled[c] = scale * mesh.texcoords[mesh.corner_texcoord[c]];
-      if (v_points_down) scaled[c].y = -scaled[c].y;
-      mesh.corner_texcoord[c] = c;
-    }
-  }
-  mesh.texcoords = std::move(scaled);
-  return std::move(mesh);
+  return std::move(made->mesh);
 }
 
 /// Packs at the size asked for, or at the smallest of whole fours at which no texel is lost.
@@ -100,15 +71,9 @@ Result<Packing> pack_texels(const TransferArguments& a, const ChartSet& charts,
 
 Status check_result(const PackArguments& a, const Mesh& before, const AtlasMesh& atlas,
                     const Packing& packing, bool v_points_down) {
-  CheckOptions options;
-  options.width = packing.width;
-  options.height = packing.height;
-  options.wrap = packing.wrap;
-  options.padding = a.options.padding;
-  options.margin = a.margin_in_force();
+  CheckOptions options = promises_of(a.options, packing, false);
   options.stacked_ok = true;
   options.v_points_down = v_points_down;
-  options.threads = a.options.threads;
   const auto report = check_atlas(apply_atlas(before, atlas), &before, options);
   if (!report) return report.error();
   if (report->ok()) return Done{};

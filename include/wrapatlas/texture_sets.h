@@ -40,4 +40,10 @@ std::vector<TextureSet> texture_sets(const Mesh& mesh, std::span<const std::uint
 /// be packed for it to keep its detail.
 Mesh mesh_in_texels(const TextureSet& set);
 
+/// Scales the UVs of each chart of `mesh` so that its faces have as much area in UV, together, as
+/// they have in `texels`, which is the same mesh with other UVs. Charts may come to lie on each
+/// other. `face_chart`: per face. Charts that have no area in one of both are scaled as all are
+/// together. O(corners).
+void scale_to_texels(Mesh& mesh, std::span<const std::uint32_t> face_chart, const Mesh& texels);
+
 }  // namespace wrapatlas

@@ -124,6 +124,16 @@ bool has_uvs(const Mesh& mesh, std::uint32_t face) {
   return true;
 }
 
+double area_in_uv(const Mesh& mesh, std::uint32_t face) {
+  const std::uint32_t first = mesh.face_begin[face];
+  const auto uv = [&](std::uint32_t c) { return mesh.texcoords[mesh.corner_texcoord[c]]; };
+  double twice = 0;
+  for (std::uint32_t c = first + 1; c + 1 < mesh.face_begin[face + 1]; ++c) {
+    twice += signed_area2(uv(first), uv(c), uv(c + 1));
+  }
+  return 0.5 * std::abs(twice);
+}
+
 }  // namespace
 
 std::vector<TextureSet> texture_sets(const Mesh& mesh, std::span<const std::uint32_t> face_material,
@@ -178,6 +188,33 @@ Mesh mesh_in_texels(const TextureSet& set) {
     }
   }
   return mesh;
+}
+
+void scale_to_texels(Mesh& mesh, std::span<const std::uint32_t> face_chart, const Mesh& texels) {
+  struct Areas {
+    double before = 0, after = 0;
+    [[nodiscard]] double scale(double otherwise) const {
+      return before > 0 && after > 0 ? std::sqrt(before / after) : otherwise;
+    }
+  };
+  std::vector<Areas> charts(face_chart.size());  // numbers of charts are below that
+  Areas all;
+  for (std::uint32_t face = 0; face < mesh.face_count(); ++face) {
+    const double before = area_in_uv(texels, face), after = area_in_uv(mesh, face);
+    for (Areas* areas : {&charts[face_chart[face]], &all}) {
+      areas->before += before;
+      areas->after += after;
+    }
+  }
+  std::vector<Vec2> scaled(mesh.corner_count());
+  for (std::uint32_t face = 0; face < mesh.face_count(); ++face) {
+    const double scale = charts[face_chart[face]].scale(all.scale(1));
+    for (std::uint32_t c = mesh.face_begin[face]; c < mesh.face_begin[face + 1]; ++c) {
+      scaled[c] = scale * mesh.texcoords[mesh.corner_texcoord[c]];
+      mesh.corner_texcoord[c] = c;
+    }
+  }
+  mesh.texcoords = std::move(scaled);
 }
 
 }  // namespace wrapatlas

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "mesh/select_faces.h"
 #include "wrapatlas/atlas.h"
 
@@ -85,6 +87,21 @@ TEST(TextureSets, InTexelsGroupsLieApart) {
   EXPECT_EQ(mesh.texcoords[2], (Vec2{0, 16}));
   EXPECT_GT(mesh.texcoords[3].x, 8);  // of the other group, though it lay at the same place
   EXPECT_EQ(mesh.texcoords[6], (Vec2{0, 0}));
+}
+
+TEST(ScaleToTexels, EachChartHasTheAreaItHadInTexels) {
+  Mesh texels = four_triangles();
+  texels.corner_texcoord = {0, 1, 2, 3, 4, 5, 6, 7, 8, 0, 1, 2};
+  Mesh mesh = texels;
+  for (std::size_t i = 0; i < 3; ++i) mesh.texcoords[i] = 4.0 * mesh.texcoords[i];
+  for (std::size_t i = 6; i < 9; ++i) mesh.texcoords[i] = {1, 1};  // no area: as all together
+  scale_to_texels(mesh, std::vector<std::uint32_t>{0, 1, 2, 0}, texels);
+  const auto side = [&](std::size_t c) { return mesh.texcoords[mesh.corner_texcoord[c]].x; };
+  EXPECT_NEAR(side(1), 0.5, 1e-12);
+  EXPECT_NEAR(side(4), 0.5, 1e-12);
+  EXPECT_NEAR(side(10), 0.5, 1e-12);
+  // Of 0.125 each before, and 2, 0.125, 0, 2 after.
+  EXPECT_NEAR(side(7), std::sqrt(0.5 / 4.125), 1e-12);
 }
 
 TEST(PlacePart, OnlyItsFacesChange) {

@@ -115,19 +115,19 @@ Status check_files(const BakeArguments& a, const Model& low, const Model& high) 
   return Done{};
 }
 
-MipFilter filter_of(BakedMap map) {
-  if (map == BakedMap::color) return MipFilter::srgb;
-  return map == BakedMap::positions || map == BakedMap::occlusion ? MipFilter::mean
-                                                                  : MipFilter::normals;
-}
-
+/// Levels are made of light, and colours written as sRGB.
 Status save_map(const BakeArguments& a, std::size_t number, Texture& texture) {
-  const std::string& path = a.outputs[number].path;
   const BakedMap map = a.maps[number];
-  if (map == BakedMap::color) linear_to_srgb(texture);
-  if (!a.mips) return save_texture(path, texture, a.bits);
-  const MipMaps maps = make_mip_maps(std::move(texture), filter_of(map));
+  const bool directions = map == BakedMap::object_normals || map == BakedMap::tangent_normals;
+  MipMaps maps;
+  if (a.mips) {
+    maps = make_mip_maps(std::move(texture), directions ? MipFilter::normals : MipFilter::mean);
+  } else {
+    maps.levels.push_back(std::move(texture));
+  }
+  const std::string& path = a.outputs[number].path;
   for (std::size_t level = 0; level < maps.levels.size(); ++level) {
+    if (map == BakedMap::color) linear_to_srgb(maps.levels[level], a.options.threads);
     const std::string name = level == 0 ? path : level_path(path, level);
     if (const Status ok = save_texture(name, maps.levels[level], a.bits); !ok) return ok;
   }
@@ -200,13 +200,13 @@ int run(const CLI::App& app, BakeArguments& a) {
     auto loaded = load_texture(a.color);
     if (!loaded) return report_error(loaded.error());
     color = std::move(*loaded);
-    srgb_to_linear(color);
+    srgb_to_linear(color, a.options.threads);
     source.color = &color;
   }
   BaseColors own;
   const bool bakes_color = std::find(a.maps.begin(), a.maps.end(), BakedMap::color) != a.maps.end();
   if (bakes_color && a.color.empty()) {
-    auto found = base_colors(*high);
+    auto found = base_colors(*high, a.options.threads);
     if (!found && high->corner_color.empty()) return report_error(found.error());
     if (!found && !a.quiet) {
       say("{}: note: baked from the colours of its vertices, without its textures: {}\n", a.high,

@@ -111,11 +111,11 @@ Status check_files(const RenderArguments& a, const Model& model, const Model* fr
 }
 
 /// Normals if they are `directions`, else colours.
-Status read_maps(const std::string& path, bool directions, MipMaps& maps) {
+Status read_maps(const std::string& path, bool directions, int threads, MipMaps& maps) {
   if (path.empty()) return Done{};
   auto texture = load_texture(path);
   if (!texture) return texture.error();
-  if (!directions) srgb_to_linear(*texture);
+  if (!directions) srgb_to_linear(*texture, threads);
   if (directions && texture->channels < 3) {
     return Error{ErrorKind::input, path, "a grey picture is no normal map", "give one in colour"};
   }
@@ -124,7 +124,7 @@ Status read_maps(const std::string& path, bool directions, MipMaps& maps) {
 }
 
 /// Compares what both show: over the pixels that show the model in full.
-Result<Likeness> likeness_to(const std::string& path, const Rendering& rendering) {
+Result<Likeness> likeness_to(const std::string& path, const Rendering& rendering, int threads) {
   const auto other = load_texture(path);
   if (!other) return other.error();
   // As it is in the file, or a picture would not be equal to itself.
@@ -142,7 +142,7 @@ Result<Likeness> likeness_to(const std::string& path, const Rendering& rendering
   if (std::find(rendering.covered.begin(), rendering.covered.end(), 1) == rendering.covered.end()) {
     return Error{ErrorKind::input, path, "no pixel shows the model in full", "raise --size"};
   }
-  return compare(image, *other, rendering.covered);
+  return compare(image, *other, rendering.covered, threads);
 }
 
 Json report_of(const RenderArguments& a, const Rendering& rendering,
@@ -195,15 +195,15 @@ int run(const CLI::App& app, RenderArguments& a) {
                          "unwrap it first, or give the model that the texture was made for"});
   }
   MipMaps color, normals;
-  if (const Status ok = read_maps(a.texture, false, color); !ok) {
+  if (const Status ok = read_maps(a.texture, false, a.options.threads, color); !ok) {
     return report_error(ok.error());
   }
-  if (const Status ok = read_maps(a.normal_map, true, normals); !ok) {
+  if (const Status ok = read_maps(a.normal_map, true, a.options.threads, normals); !ok) {
     return report_error(ok.error());
   }
   BaseColors own;
   if (a.texture.empty() && !a.no_textures) {
-    auto found = base_colors(*model);
+    auto found = base_colors(*model, a.options.threads);
     if (!found && !a.quiet) {
       say("{}: note: drawn without its textures: {}\n", a.input, found.error().message());
     }
@@ -218,7 +218,7 @@ int run(const CLI::App& app, RenderArguments& a) {
   const Rendering rendering = render(model->mesh, a.options);
   std::optional<Likeness> likeness;
   if (!a.other.empty()) {
-    const auto found = likeness_to(a.other, rendering);
+    const auto found = likeness_to(a.other, rendering, a.options.threads);
     if (!found) return report_error(found.error());
     likeness = *found;
   }

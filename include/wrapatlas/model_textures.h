@@ -58,6 +58,6 @@ Result<ModelTextures> load_textures(const Model& model, bool base_colors_alone =
 
 /// The textures of base colours alone (baseColorTexture, diffuseTexture, map_Kd). None, without an
 /// error, for formats without textures and for meshes without UVs. Errors: input.
-Result<BaseColors> base_colors(const Model& model);
+Result<BaseColors> base_colors(const Model& model, int threads = 0);
 
 }  // namespace wrapatlas

@@ -48,8 +48,7 @@ using TexelMask = std::vector<std::uint8_t>;
 TextureValue sample_bilinear(const Texture& texture, Vec2 uv, Wrap wrap);
 
 enum class MipFilter {
-  mean,     ///< of values as they are: data, and colours that are linear already
-  srgb,     ///< of colours in linear light; alpha as it is
+  mean,     ///< of values as they are: data, and colours in linear light
   normals,  ///< of directions 2c - 1, made unit again
 };
 
@@ -59,7 +58,7 @@ struct MipMaps {
   std::vector<Texture> levels;  ///< level 0 is the texture
 };
 /// `threads` here and below: 0: as many as there are; the result does not depend on it.
-MipMaps make_mip_maps(Texture texture, MipFilter filter, int threads = 0);
+MipMaps make_mip_maps(Texture texture, MipFilter filter);
 
 /// Trilinear: between the two levels next to `level` (0: the texture itself), bilinear in each.
 TextureValue sample_trilinear(const MipMaps& maps, Vec2 uv, double level, Wrap wrap);

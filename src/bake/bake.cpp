@@ -326,7 +326,7 @@ Result<BakeResult> bake(const Mesh& low, const BakeSource& high, std::span<const
     return Error{ErrorKind::input, "low mesh", "no face lies within the atlas",
                  "move its UVs into [0, 1], or let the atlas wrap"};
   }
-  for (Texture& map : result.maps) dilate(map, baker.reached(), options.wrap);
+  for (Texture& map : result.maps) dilate(map, baker.reached(), options.wrap, options.threads);
   return result;
 }
 

@@ -54,7 +54,7 @@ class Resampler {
       report(done * samples_.band_count() + ++bands_done_, all * samples_.band_count());
     });
     bands_done_ = 0;
-    if (!stopped_) dilate(texture, reached, options_.wrap);
+    if (!stopped_) dilate(texture, reached, options_.wrap, options_.threads);
     return !stopped_;
   }
 
@@ -65,7 +65,7 @@ class Resampler {
     for (const TransferSource& source : target.of_group) {
       if (source.texture == nullptr || maps_.count(source.texture) != 0) continue;
       Texture linear = *source.texture;
-      if (target.role == TextureRole::color) srgb_to_linear(linear);
+      if (target.role == TextureRole::color) srgb_to_linear(linear, options_.threads);
       maps_[source.texture] =
           make_mip_maps(std::move(linear),
                         target.role == TextureRole::normals ? MipFilter::normals : MipFilter::mean);

@@ -12,7 +12,7 @@ bool is_base_color(std::string_view place) {
   return false;
 }
 
-Result<BaseColors> base_colors(const Model& model) {
+Result<BaseColors> base_colors(const Model& model, int threads) {
   BaseColors own;
   if (model.mesh.texcoords.empty() || !model.source) return own;
   auto textures = load_textures(model, true);
@@ -25,7 +25,7 @@ Result<BaseColors> base_colors(const Model& model) {
     MipMaps& maps = own.maps[use.image];
     if (maps.levels.empty()) {
       Texture& image = textures->images[use.image];
-      srgb_to_linear(image);
+      srgb_to_linear(image, threads);
       maps = make_mip_maps(std::move(image), MipFilter::mean);
     }
     if (own.groups.size() <= use.material) own.groups.resize(use.material + std::size_t{1});

@@ -69,22 +69,11 @@ Texture half(const Texture& texture) {
 
 }  // namespace
 
-MipMaps make_mip_maps(Texture texture, MipFilter filter, int threads) {
+MipMaps make_mip_maps(Texture texture, MipFilter filter) {
   MipMaps maps;
   const bool directions = filter == MipFilter::normals && texture.channels >= 3;
-  Texture linear;
-  if (filter == MipFilter::srgb) {
-    linear = texture;
-    srgb_to_linear(linear, threads);
-  }
   maps.levels.push_back(std::move(texture));
   while (maps.levels.back().texel_count() > 1) {
-    if (filter == MipFilter::srgb) {
-      linear = half(linear);
-      maps.levels.push_back(linear);
-      linear_to_srgb(maps.levels.back(), threads);
-      continue;
-    }
     maps.levels.push_back(half(maps.levels.back()));
     if (directions) make_unit(maps.levels.back());
   }

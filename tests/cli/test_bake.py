@@ -86,6 +86,15 @@ class Bake(support.CommandTest):
         self.assertGreater(min(red, blue), 245)
         self.assertEqual(none, 0)
 
+    def test_mips_of_colours_are_means_of_light(self):
+        """From black to white, evenly in light: its mean is half the light."""
+        self.write("painted.obj", "v 0 0 0 0 0 0\nv 1 0 0 1 1 1\nv 1 1 0 1 1 1\nv 0 1 0 0 0 0\n"
+                                  "f 1 2 3 4\n")
+        self.bake("--map", "color", "--resolution", 8, "--wrap", "none", "--mips",
+                  high="painted.obj")
+        *_, rows = read_png(self.path("n.3.png"))
+        self.assertAlmostEqual(rows[0][0], 188, delta=1)  # sRGB of 0.5
+
     def test_colour_of_the_models_own_materials(self):
         self.bake("--map", "object", "--resolution", 8, output="t.png")
         self.write("same.obj", "mtllib a.mtl\nusemtl a\n" + SQUARE)

@@ -8,34 +8,15 @@
 #include <bit>
 #include <numbers>
 
+#include "bake_output.h"
 #include "common.h"
 #include "io/file.h"
 #include "options.h"
-#include "output_paths.h"
 #include "wrapatlas/model.h"
 #include "wrapatlas/model_textures.h"
 
 namespace wrapatlas::cli {
 namespace {
-
-constexpr Named<BakedMap> kBakedMaps[] = {{"tangent", BakedMap::tangent_normals},
-                                          {"object", BakedMap::object_normals},
-                                          {"position", BakedMap::positions},
-                                          {"occlusion", BakedMap::occlusion},
-                                          {"color", BakedMap::color}};
-
-struct BakeArguments {
-  std::string low, high, output, color, json;
-  BakedMap map = BakedMap::tangent_normals;
-  std::vector<std::string> also;  ///< "KIND=FILE"
-  Resolution resolution;
-  std::optional<double> hard_edges, high_hard_edges;  ///< degrees
-  int bits = 8, texcoord = 0;
-  bool mips = false, quiet = false;
-  BakeOptions options;
-  std::vector<BakedMap> maps;
-  std::vector<OutputPath> outputs;  ///< of the maps, in their order
-};
 
 /// Fills maps and outputs.
 Status resolve_maps(BakeArguments& a) {
@@ -86,11 +67,6 @@ Status resolve(const CLI::App& app, BakeArguments& a) {
   return check_texcoord(a.texcoord, std::span(&a.low, 1));
 }
 
-/// "map.png" -> "map.3.png"
-std::string level_path(const std::string& path, std::size_t level) {
-  return fmt::format("{}.{}.png", path.substr(0, path.size() - 4), level);
-}
-
 Status check_files(const BakeArguments& a, const Model& low, const Model& high) {
   std::vector<OutputPath> outputs = a.outputs;
   std::size_t levels = 0;
@@ -113,66 +89,6 @@ Status check_files(const BakeArguments& a, const Model& low, const Model& high) 
     if (const Status ok = check_writable(output.path); !ok) return ok;
   }
   return Done{};
-}
-
-/// Levels are made of light, and colours written as sRGB.
-Status save_map(const BakeArguments& a, std::size_t number, Texture& texture) {
-  const BakedMap map = a.maps[number];
-  const bool directions = map == BakedMap::object_normals || map == BakedMap::tangent_normals;
-  MipMaps maps;
-  if (a.mips) {
-    maps = make_mip_maps(std::move(texture), directions ? MipFilter::normals : MipFilter::mean);
-  } else {
-    maps.levels.push_back(std::move(texture));
-  }
-  const std::string& path = a.outputs[number].path;
-  for (std::size_t level = 0; level < maps.levels.size(); ++level) {
-    if (map == BakedMap::color) linear_to_srgb(maps.levels[level], a.options.threads);
-    const std::string name = level == 0 ? path : level_path(path, level);
-    if (const Status ok = save_texture(name, maps.levels[level], a.bits); !ok) return ok;
-  }
-  return Done{};
-}
-
-Json report_of(const BakeArguments& a, const BakeResult& result, double seconds, double baking) {
-  Json maps = Json::array();
-  for (std::size_t i = 0; i < a.maps.size(); ++i) {
-    maps.push_back({{"kind", name_of(kBakedMaps, a.maps[i])}, {"file", a.outputs[i].path}});
-  }
-  return {{"version", WRAPATLAS_VERSION},
-          {"command", "bake"},
-          {"low", a.low},
-          {"high", a.high},
-          {"maps", maps},
-          {"width", a.options.width},
-          {"height", a.options.height},
-          {"wrap", name_of(kWraps, a.options.wrap)},
-          {"samples", a.options.samples},
-          {"bits", a.bits},
-          {"distance", result.distance},
-          {"texels_used", result.texels_used},
-          {"texels_nearest", result.texels_nearest},
-          {"faces_without_uv", result.faces_without_uv},
-          {"position_origin", {result.low_corner.x, result.low_corner.y, result.low_corner.z}},
-          {"position_extent", result.extent},
-          {"threads", a.options.threads},
-          {"seconds", {{"total", seconds}, {"bake", baking}}},
-          {"peak_memory_mb", peak_memory_mb()}};
-}
-
-void summarize(const BakeArguments& a, const BakeResult& result, double seconds) {
-  const std::size_t all = std::size_t{1} * a.options.width * a.options.height;
-  if (result.faces_without_uv > 0) {
-    say("{}: note: {} no UVs, or none of any area, and {} baked\n", a.low,
-        quantity(result.faces_without_uv, "face has", "faces have"),
-        result.faces_without_uv == 1 ? "is not" : "are not");
-  }
-  if (result.texels_nearest > 0) {
-    say("{}: note: at {} no ray met {} within {:.4g}; they show its nearest point\n", a.low,
-        quantity(result.texels_nearest, "texel"), a.high, result.distance);
-  }
-  say("{}: {} x {} texels, {:.1f} % of them in use, {:.2f} s -> {}\n", a.low, a.options.width,
-      a.options.height, 100.0 * double(result.texels_used) / double(all), seconds, a.output);
 }
 
 int run(const CLI::App& app, BakeArguments& a) {
@@ -282,6 +198,7 @@ Command make_bake_command(CLI::App& parser) {
   add_number(app, "--bits", a.bits, {8, 16, "bits"}, "Of each value in the file: 8 or 16");
   add_number(app, "--samples", a.options.samples, {1, 16},
              "A texel is the mean of so many, squared");
+  add_bleed(app, a.options.bleed);
   add_number(app, "--distance", a.options.distance, {0, 1e30},
              "How far from the low model the high one is looked for, along the normal and back, in "
              "units of the files; 0: twice the largest distance between them");

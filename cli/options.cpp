@@ -110,6 +110,12 @@ void add_threads(CLI::App& app, int& value) {
              "guided searches for a time");
 }
 
+void add_bleed(CLI::App& app, double& value) {
+  add_number(app, "--bleed", value, {0, kMostTexels, "texels"},
+             "Texels by which charts go on over their borders, along the surface, for mip levels "
+             "to see; beyond, the nearest texel is repeated");
+}
+
 void add_json(CLI::App& app, std::string& path) {
   app.add_option("--json", path, "Write a report as JSON to a file, or to standard output for -")
       ->type_name("FILE|-");

@@ -117,6 +117,7 @@ Status fill_textures(const TransferArguments& a, const TextureSet& set, bool v_p
   options.wrap = atlas.packing.wrap;
   options.v_points_down = v_points_down;
   options.keeps_tangents = set.keeps_tangents;
+  options.bleed = a.bleed;
   options.threads = a.pack.options.threads;
   options.progress = [&](double share) {
     line.show(fmt::format("{}moving textures {:3.0f} %", label, 100 * share));

@@ -6,6 +6,7 @@
 
 #include "packing_run.h"
 #include "wrapatlas/texture_sets.h"
+#include "wrapatlas/transfer.h"
 #include "wrapatlas/unwrap.h"
 
 namespace wrapatlas::cli {
@@ -13,6 +14,7 @@ namespace wrapatlas::cli {
 struct TransferArguments {
   PackArguments pack;
   int bits = 8;
+  double bleed = kDefaultBleed;
   bool merge = false, unwrap = false;
   bool size_given = false;
 };

@@ -80,6 +80,7 @@ Json report_of(const TransferArguments& a, const std::vector<TextureSet>& sets,
           {"output", a.pack.output},
           {"wrap", name_of(kWraps, a.pack.options.wrap)},
           {"padding", a.pack.options.padding},
+          {"bleed", a.bleed},
           {"atlases", list},
           {"images_before", totals.images_before},
           {"images", totals.images},
@@ -209,6 +210,7 @@ Command make_transfer_command(CLI::App& parser) {
                "Cut the model into new charts, few and large, instead of packing those it has");
   add_number(app, "--bits", arguments->bits, {8, 16, "bits"},
              "Of each value in the new textures: 8 or 16");
+  add_bleed(app, arguments->bleed);
   add_pack_options(app, arguments->pack, "Model with textures: .gltf .glb .obj");
   app.footer(std::string(kPackExitStatus) +
              "Without --resolution an atlas is the smallest at which no texture loses texels.\n"

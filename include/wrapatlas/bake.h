@@ -28,6 +28,9 @@ struct BakeOptions {
                                     ///< [0, 1] is not baked
   bool v_points_down = false;       ///< of the low mesh's UVs, as Model has it
   int samples = 2;                  ///< a texel is the mean of so many, squared; 1 to 16
+  /// Texels by which charts go on over their borders, along the low mesh's surface unfolded, for
+  /// mip levels to see; all beyond is dilated.
+  double bleed = kDefaultBleed;
   /// How far from the low mesh the high one is looked for along the normal, in the meshes' units;
   /// 0: twice the largest distance of a corner or a middle of a low face to the high mesh.
   double distance = 0;
@@ -71,8 +74,9 @@ struct BakeResult {
 /// Each sample of a texel lies on a triangle of the low mesh and looks along its smoothed normal,
 /// both ways, for the nearest place of the high mesh that faces the same way; where there is none
 /// within the distance, it takes the nearest point. Texels up to one and a half from a chart
-/// continue it beyond its border; all others get the value of the nearest (dilate). Where charts
-/// overlap, the first face counts. Both meshes pass validate_mesh. Errors: usage (options, a map
+/// continue it in the plane of the triangle at its border, those within `bleed` along the
+/// surface; all others get the value of the nearest (dilate). Where charts overlap, the first face
+/// counts. Both meshes pass validate_mesh. Errors: usage (options, a map
 /// without its source), input (no faces, no UVs), output (Embree), interrupted.
 Result<BakeResult> bake(const Mesh& low, const BakeSource& high, std::span<const BakedMap> maps,
                         const BakeOptions& options = {});

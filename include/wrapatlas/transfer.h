@@ -12,6 +12,9 @@
 
 namespace wrapatlas {
 
+/// Texels around charts that mip levels up to the fourth see.
+inline constexpr double kDefaultBleed = 32;
+
 enum class TextureRole {
   color,    ///< sRGB: resampled in linear light
   normals,  ///< (n + 1) / 2 in tangent space, green up: turned with the chart, made unit again
@@ -49,6 +52,7 @@ struct TransferOptions {
   /// Per face: whether it has tangents of its own that stay what they are, so that values of normal
   /// maps are not turned; empty: no face has. Else tangents are along the places on the textures.
   std::span<const std::uint8_t> keeps_tangents;
+  double bleed = kDefaultBleed;          ///< as BakeOptions has it
   int threads = 0;                       ///< 0: as many as there are
   std::function<bool(double)> progress;  ///< the share that is done; false: stop
 };
@@ -56,8 +60,8 @@ struct TransferOptions {
 /// `before` and `after` have the same faces and corners, but for their UVs. `group`: per face, an
 /// index into each target's of_group. A texel takes the value at its centre by the bicubic filter
 /// of Catmull & Rom, cut to the range of the texels around, or where the old texture is finer than
-/// the new by trilinear mip levels. Texels up to one and a half from a chart continue it; the rest
-/// is dilated. Errors: usage (sizes, a face without its group), input (no UVs), interrupted.
+/// the new by trilinear mip levels. Around charts they go on as in bake. Errors: usage (sizes, a
+/// face without its group), input (no UVs), interrupted.
 Result<std::vector<Texture>> transfer(const Mesh& before, const Mesh& after,
                                       std::span<const std::uint32_t> group,
                                       std::span<const TransferTarget> targets,

@@ -91,6 +91,7 @@ void bind_bake(nb::module_& module) {
   number("width", [](BakeOptions & o) -> auto& { return o.width; }, {1, kMostTexels, "texels"});
   number("height", [](BakeOptions & o) -> auto& { return o.height; }, {1, kMostTexels, "texels"});
   number("samples", [](BakeOptions & o) -> auto& { return o.samples; }, {1, 16});
+  number("bleed", [](BakeOptions & o) -> auto& { return o.bleed; }, {0, kMostTexels, "texels"});
   number("distance", [](BakeOptions & o) -> auto& { return o.distance; }, {0, 1e30});
   number("occlusion_rays", [](BakeOptions & o) -> auto& { return o.occlusion_rays; }, {1, 65536});
   number("occlusion_distance", [](BakeOptions & o) -> auto& { return o.occlusion_distance; },
@@ -185,6 +186,8 @@ void bind_transfer(nb::module_& module) {
              {1, kMostTexels, "texels"});
   add_number(settings, "height", [](TransferSettings & s) -> auto& { return s.options.height; },
              {1, kMostTexels, "texels"});
+  add_number(settings, "bleed", [](TransferSettings & s) -> auto& { return s.options.bleed; },
+             {0, kMostTexels, "texels"});
   add_number(settings, "threads", [](TransferSettings & s) -> auto& { return s.options.threads; },
              {0, 1024, "threads"});
   add_choice(

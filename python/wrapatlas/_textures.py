@@ -60,6 +60,7 @@ def bake(
     resolution: int | tuple[int, int] | str = 1024,
     wrap: Wrap | None = None,
     samples: int = 2,
+    bleed: float = 32,
     distance: float = 0,
     hard_edges: float | None = None,
     high_hard_edges: float | None = None,
@@ -77,6 +78,8 @@ def bake(
     resolution: texels: N, (W, H) or "WxH".
     wrap: axes on which the atlas repeats; as it was packed, if low is a Packing, else "uv".
     samples: a texel is the mean of so many, squared.
+    bleed: texels by which charts go on over their borders, along the surface, for mip levels to
+        see; beyond, the nearest texel is repeated.
     distance: how far from the low mesh the high one is looked for, in their units; 0: twice the
         largest distance between them.
     hard_edges, high_hard_edges: degrees between faces from which on normals are not smooth.
@@ -93,6 +96,7 @@ def bake(
         {
             "wrap": _wrap_of(low, wrap),
             "samples": samples,
+            "bleed": bleed,
             "distance": distance,
             "hard_edges": hard_edges,
             "high_hard_edges": high_hard_edges,
@@ -141,6 +145,7 @@ def transfer(
     wrap: Wrap | None = None,
     repeat: Literal["repeat", "mirror", "clamp"] = "repeat",
     keep_tangents: bool = False,
+    bleed: float = 32,
     threads: int = 0,
     progress: ProgressLike = None,
 ) -> Picture:
@@ -157,6 +162,7 @@ def transfer(
         packed, if after is a Packing, else "uv".
     repeat: what the old texture does outside [0, 1].
     keep_tangents: normals stay along tangents that the mesh has: they are not turned.
+    bleed: as in bake.
     progress: see pack; the stage is "transfer".
 
     Returns (height, width, channels) float32, 0 to 1. Raises UsageError and InputError (both
@@ -167,6 +173,7 @@ def transfer(
     given = {"wrap": _wrap_of(after, wrap), "role": role, "repeat": repeat, "threads": threads}
     set_given(settings, given)
     settings.keep_tangents = keep_tangents
+    settings.bleed = bleed
     if face_texture is None:
         textures = [pixels("texture", cast(npt.ArrayLike, texture))]
         groups = None

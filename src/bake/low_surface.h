@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "bake/bleed.h"
 #include "bake/texel_samples.h"
 #include "bake/triangle_point.h"
 #include "wrapatlas/tangents.h"
@@ -23,7 +24,11 @@ class LowSurface {
   /// `on_texels`: the triangle's corners in texels (TexelSamples::corners).
   [[nodiscard]] LowPoint at(const TexelSample& sample, const std::array<Vec2, 3>& on_texels) const;
 
+  /// Along the axes of the chart, which are carried over its border.
+  [[nodiscard]] LowPoint beyond(const BeyondBorder& place) const;
+
  private:
+  [[nodiscard]] LowPoint on(std::uint32_t triangle, const std::array<double, 3>& weights) const;
   const Mesh& mesh_;
   TangentFrames frames_;
 };

@@ -1,0 +1,60 @@
+// From a texel to a place of the low mesh, from there to the high one, and back with what is there.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <mutex>
+#include <span>
+#include <vector>
+
+#include "bake/bleed.h"
+#include "bake/high_surface.h"
+#include "bake/low_surface.h"
+#include "bake/texel_samples.h"
+#include "wrapatlas/bake.h"
+
+namespace wrapatlas {
+
+/// What a Baker works with.
+struct BakeScene {
+  const LowSurface& low;
+  const HighSurface& high;
+  const TexelSamples& samples;
+  Bleed& bleed;
+  std::span<const BakedMap> maps;
+  const BakeOptions& options;
+  BakeResult& result;  ///< its maps are of the right size; distance and box are known
+};
+
+class Baker {
+ public:
+  explicit Baker(const BakeScene& scene);
+
+  /// Fills all maps but for dilation. false: stopped.
+  bool run(int threads);
+
+  /// Texels that have a value: those inside charts and those around them.
+  [[nodiscard]] const TexelMask& reached() const { return reached_; }
+
+ private:
+  static constexpr std::size_t kMapKinds = 5;
+  using Sums = std::array<std::array<double, kMostChannels>, kMapKinds>;  // of a texel's samples
+
+  void bake_band(std::size_t band);
+  void bake_texel(const std::vector<TexelSample>& samples, std::size_t band, int row, int x);
+  bool add_sample(const LowPoint& from, std::size_t number, Sums& sums) const;
+  [[nodiscard]] std::array<double, kMostChannels> value_of(BakedMap map, const LowPoint& from,
+                                                           const HighPoint& at,
+                                                           std::size_t number) const;
+  void write(std::size_t texel, const Sums& sums, int count);
+  /// `done`: of all bands, each of which comes a second time for its bleed.
+  void report(std::size_t done);
+
+  BakeScene scene_;
+  TexelMask reached_;
+  std::mutex mutex_;
+  std::atomic<bool> stopped_{false};
+  std::atomic<std::size_t> done_{0}, used_{0}, nearest_{0};
+};
+
+}  // namespace wrapatlas

@@ -2,8 +2,8 @@
 """Seams of baked normal maps over several meshes: each is unwrapped, packed on the torus with a wide
 padding, its own normals baked, and the error of what is read from the map measured in pictures from
 around it (`wrapatlas_bench seams`): inside charts, along their borders, along the border of the
-atlas, at mip levels 0 to 4; and the same where the texture is clamped, and where nothing is
-dilated. Markdown tables of means in degrees over all pixels of all meshes, and per mesh for level
+atlas, at mip levels 0 to 4; the same where the texture is clamped, and where nothing is dilated;
+and without any seams, which is what filtering alone leaves of the surface's own normals. Markdown tables of means in degrees over all pixels of all meshes, and per mesh for level
 0. Needs nothing but Python and the release build. Progress goes to stderr."""
 
 import argparse

@@ -55,9 +55,6 @@ Status resolve(const CLI::App& app, BakeArguments& a) {
       {"--occlusion-distance", !occlusion, "no occlusion is baked", "add --map occlusion"},
   };
   if (const Status ok = refuse_ignored(app, ignored); !ok) return ok;
-  if (a.bits != 8 && a.bits != 16) {
-    return usage(fmt::format("--bits {}", a.bits), "PNG has no such values", "give 8 or 16");
-  }
   constexpr double kDegree = std::numbers::pi / 180;
   if (a.hard_edges) a.options.hard_angle = *a.hard_edges * kDegree;
   if (a.high_hard_edges) a.options.high_hard_angle = *a.high_hard_edges * kDegree;
@@ -195,7 +192,7 @@ Command make_bake_command(CLI::App& parser) {
   add_resolution(app, a.resolution);
   add_choice(app, "--wrap", a.options.wrap, kWraps,
              "Axes on which the atlas repeats, as it was packed");
-  add_number(app, "--bits", a.bits, {8, 16, "bits"}, "Of each value in the file: 8 or 16");
+  add_bits(app, a.bits);
   add_number(app, "--samples", a.options.samples, {1, 16},
              "A texel is the mean of so many, squared");
   add_bleed(app, a.options.bleed);

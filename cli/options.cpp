@@ -116,6 +116,13 @@ void add_bleed(CLI::App& app, double& value) {
              "to see; beyond, the nearest texel is repeated");
 }
 
+void add_bits(CLI::App& app, int& value) {
+  add_name_option(
+      app, "--bits", {"8", "16"}, [&value](std::size_t i) { value = i == 0 ? 8 : 16; },
+      "Of each value in the pictures that are written")
+      ->default_str(fmt::format("{}", value));
+}
+
 void add_json(CLI::App& app, std::string& path) {
   app.add_option("--json", path, "Write a report as JSON to a file, or to standard output for -")
       ->type_name("FILE|-");

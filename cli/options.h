@@ -86,6 +86,7 @@ inline constexpr double kMostTexels = 65536;
 void add_texcoord(CLI::App& app, int& value);
 void add_threads(CLI::App& app, int& value);
 void add_bleed(CLI::App& app, double& value);
+void add_bits(CLI::App& app, int& value);  ///< 8 or 16
 void add_json(CLI::App& app, std::string& path);
 
 /// The number of threads that an option of 0 stands for.

@@ -26,9 +26,6 @@ Status check_options(const CLI::App& app, TransferArguments& a) {
       {"--aspect", !a.size_given, "the size is chosen, and square", "give --resolution too"},
   };
   if (const Status ok = refuse_ignored(app, ignored); !ok) return ok;
-  if (a.bits != 8 && a.bits != 16) {
-    return usage(fmt::format("--bits {}", a.bits), "PNG has no such values", "give 8 or 16");
-  }
   return Done{};
 }
 
@@ -208,8 +205,7 @@ Command make_transfer_command(CLI::App& parser) {
                "One atlas for all materials; else one for those that have the same textures");
   app.add_flag("--unwrap", arguments->unwrap,
                "Cut the model into new charts, few and large, instead of packing those it has");
-  add_number(app, "--bits", arguments->bits, {8, 16, "bits"},
-             "Of each value in the new textures: 8 or 16");
+  add_bits(app, arguments->bits);
   add_bleed(app, arguments->bleed);
   add_pack_options(app, arguments->pack, "Model with textures: .gltf .glb .obj");
   app.footer(std::string(kPackExitStatus) +

@@ -10,9 +10,7 @@ import tempfile
 import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-PYTHON = str(ROOT / "python")
 QUICK = ["--method", "modulo", "--resolution", "64"]  # a few milliseconds a mesh
-ENVIRONMENT = {**os.environ, "PYTHONPATH": os.pathsep.join([PYTHON, os.environ.get("PYTHONPATH", "")])}
 # Beside every result, and with times in them: not the same from run to run.
 OF_THE_RUN = ("record.json", "log.txt", "unwrap.json", "bake.json", "render.json", "pack.json")
 CUBE = [(0, 3, 2, 1), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7)]
@@ -67,7 +65,7 @@ def command_line(*words, **how):
 
 def batch(*words, **how):
     """The batch as a program."""
-    return subprocess.run(command_line(*words), env=ENVIRONMENT, capture_output=True, text=True, timeout=600, **how)
+    return subprocess.run(command_line(*words), capture_output=True, text=True, timeout=600, **how)
 
 
 class InFolder(unittest.TestCase):

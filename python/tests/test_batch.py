@@ -9,13 +9,11 @@ import subprocess
 import sys
 import unittest
 
-sys.path[:0] = [str(pathlib.Path(__file__).resolve().parents[1]), str(pathlib.Path(__file__).resolve().parent)]
-
-import distributed  # noqa: E402
-import fsspec  # noqa: E402
-import wrapatlas.batch as batch  # noqa: E402
-from batch_support import QUICK, ROOT, InFolder, box, results, table, textured_square  # noqa: E402
-from wrapatlas.batch import command, evaluate, files, manifest, page, recipe, store  # noqa: E402
+import distributed
+import fsspec
+import wrapatlas.batch as batch
+from batch_support import QUICK, ROOT, InFolder, box, results, table, textured_square
+from wrapatlas.batch import command, evaluate, files, manifest, page, recipe, store
 
 
 class WithDask(InFolder):

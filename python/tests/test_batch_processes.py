@@ -15,12 +15,10 @@ import threading
 import time
 import unittest
 
-sys.path[:0] = [str(pathlib.Path(__file__).resolve().parents[1]), str(pathlib.Path(__file__).resolve().parent)]
-
-import distributed  # noqa: E402
-import psutil  # noqa: E402
-from batch_support import ENVIRONMENT, QUICK, ROOT, InFolder, batch, box, command_line, record, results, states, table  # noqa: E402
-from wrapatlas.batch import run  # noqa: E402
+import distributed
+import psutil
+from batch_support import QUICK, ROOT, InFolder, batch, box, command_line, record, results, states, table
+from wrapatlas.batch import run
 
 BROKEN = {"broken garbage.off": b"garbage\n", "broken empty.off": b"",
           "broken cut short.off": b"OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n"}
@@ -115,7 +113,7 @@ class Stopped(InFolder):
             box(self.meshes / f"{width}.off", 1 + width)
         # Moves enough for some tenths of a second each.
         self.words = (self.meshes, "-o", self.out, "--workers", "2", "--", "--moves", "30000")
-        return subprocess.Popen(command_line(*self.words), env=ENVIRONMENT, stderr=subprocess.PIPE, text=True,
+        return subprocess.Popen(command_line(*self.words), env=stderr=subprocess.PIPE, text=True,
                                 start_new_session=True)
 
     def go_on(self, least):

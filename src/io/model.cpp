@@ -68,13 +68,17 @@ Status write_new(FileFormat format, const std::filesystem::path& path, const Mes
                "write .obj, .ply, .gltf or .glb"};
 }
 
+/// Whether a file of one format can hold all that one of the other does.
+bool keeps_all(FileFormat a, FileFormat b) {
+  const auto is_gltf = [](FileFormat f) { return f == FileFormat::gltf || f == FileFormat::glb; };
+  return a == b || (is_gltf(a) && is_gltf(b));
+}
+
 /// The model in `format`, as save_model promises.
 Status write_model(const Model& model, const AtlasMesh& atlas, const std::filesystem::path& path,
                    FileFormat format) {
   if (Status fits = check_fit(model.mesh, atlas); !fits) return fits;
-  const auto is_gltf = [](FileFormat f) { return f == FileFormat::gltf || f == FileFormat::glb; };
-  const bool same_kind = format == model.format || (is_gltf(format) && is_gltf(model.format));
-  if (same_kind && model.source) return model.source->save(path, model.mesh, atlas);
+  if (model.source && keeps_all(format, model.format)) return model.source->save(path, model.mesh, atlas);
   if (counts_v_downward(format) != model.v_points_down) {
     return write_new(format, path, model.mesh, turn_upside_down(atlas));
   }
@@ -139,8 +143,7 @@ Status save_model(const Model& model, const AtlasMesh& atlas, const std::filesys
                   std::span<const NewTexture> textures) {
   const Result<FileFormat> format = format_from_path(path);
   if (!format) return format.error();
-  const auto is_gltf = [](FileFormat f) { return f == FileFormat::gltf || f == FileFormat::glb; };
-  if (!model.source || (*format != model.format && !(is_gltf(*format) && is_gltf(model.format)))) {
+  if (!model.source || !keeps_all(*format, model.format)) {
     return Error{ErrorKind::usage, path.string(), "another format than the model's",
                  "keep its ending: its materials would be lost"};
   }

@@ -179,7 +179,8 @@ def connected(client: Optional[Any], scheduler: Optional[str], workers: Optional
         return
     # Its own limit of memory is off: it sees the worker, and what is large is the command.
     with distributed.LocalCluster(n_workers=workers or os.cpu_count() or 1, threads_per_worker=1, processes=True,
-                                  memory_limit=0, dashboard_address=None, silence_logs=50) as cluster:
+                                  memory_limit=0, dashboard_address=None, silence_logs=50,
+                                  preload="wrapatlas.batch.worker") as cluster:
         with distributed.Client(cluster, set_as_default=False) as joined:
             yield joined
 

@@ -5,6 +5,7 @@ Princeton Segmentation Benchmark), which takes minutes; WRAPATLAS_BATCH_OPTIONS 
 WRAPATLAS_BATCH_OUT=FOLDER keeps the results.
 """
 
+import json
 import os
 import pathlib
 import shutil
@@ -161,6 +162,28 @@ class Stopped(InFolder):
         self.assertIn(f"another batch works here (process {program.pid})", second.stderr)
         _, told = program.communicate(timeout=120)
         self.assertEqual(program.returncode, 0, told)
+
+
+class OwnScheduler(InFolder):
+    def start(self, tool, *words):
+        program = subprocess.Popen([sys.executable, "-m", f"distributed.cli.{tool}", *map(str, words), "--no-dashboard",
+                                    "--scheduler-file", str(self.folder / "scheduler.json")],
+                                   stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        self.addCleanup(program.wait)
+        self.addCleanup(program.terminate)
+
+    def test_of_the_command_line(self):
+        for width in range(6):
+            box(self.meshes / f"{width}.off", 1 + width)
+        (self.meshes / "broken.off").write_text("garbage")
+        self.start("dask_scheduler", "--port", "0")
+        wait_until((self.folder / "scheduler.json").exists)
+        self.start("dask_worker", "--nworkers", "2", "--nthreads", "1", "--memory-limit", "0")
+        address = json.loads((self.folder / "scheduler.json").read_text(encoding="utf-8"))["address"]
+        ended = batch(self.meshes, "-o", self.out, "--scheduler", address, "--", *QUICK)
+        self.assertEqual(ended.returncode, 1, ended.stderr)
+        self.assertEqual(states(self.out), {"broken.off": "failed", **{f"{i}.off": "done" for i in range(6)}})
+        self.assertEqual(self.left_over(), [])
 
 
 @unittest.skipUnless(os.geteuid() == 0, "takes root, to be somebody else and to mount")

@@ -26,11 +26,7 @@ std::optional<Error> check_result(const PackArguments& arguments, const Model& m
   if (!report) return inside_input(arguments, report.error());
   outcome.valid = report->ok();
   if (report->ok()) return std::nullopt;
-  const std::string first = report->findings.empty() ? "" : ": " + report->findings.front().text;
-  return Error{
-      ErrorKind::check, arguments.input,
-      fmt::format("the finished atlas breaks {}{}", quantity(report->violations, "promise"), first),
-      "nothing was written; please report this as a bug"};
+  return broken_promise(arguments.input, *report);
 }
 
 /// --density is in texels per unit of surface, and so are errors about it.
@@ -93,6 +89,14 @@ Status write_outputs(const PackArguments& arguments, const Model& model, const M
 }
 
 }  // namespace
+
+Error broken_promise(const std::string& input, const CheckReport& report) {
+  const std::string first = report.findings.empty() ? "" : ": " + report.findings.front().text;
+  return {
+      ErrorKind::check, input,
+      fmt::format("the finished atlas breaks {}{}", quantity(report.violations, "promise"), first),
+      "nothing was written; please report this as a bug"};
+}
 
 Error inside_input(const PackArguments& arguments, Error error) {
   error.where = arguments.input + (error.where.empty() ? "" : ": " + error.where);

@@ -2,11 +2,15 @@
 #pragma once
 
 #include "pack_report.h"
+#include "wrapatlas/validate.h"
 
 namespace wrapatlas::cli {
 
 /// The error, with the input's name before the place in it.
 Error inside_input(const PackArguments& arguments, Error error);
+
+/// An atlas that we made ourselves fails the check.
+Error broken_promise(const std::string& input, const CheckReport& report);
 
 /// What can be known of the outputs before the work begins.
 Status check_outputs(const PackArguments& arguments);

@@ -77,8 +77,7 @@ Status check_result(const PackArguments& a, const Mesh& before, const AtlasMesh&
   const auto report = check_atlas(apply_atlas(before, atlas), &before, options);
   if (!report) return report.error();
   if (report->ok()) return Done{};
-  return Error{ErrorKind::check, "", "the finished atlas breaks a promise",
-               "nothing was written; please report this as a bug"};
+  return broken_promise("", *report);
 }
 
 }  // namespace

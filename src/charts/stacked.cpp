@@ -1,6 +1,7 @@
 #include "charts/stacked.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
 
@@ -19,12 +20,15 @@ class PairTest {
  public:
   bool stacked(const Chart& a, const Chart& b) {
     const Box2 window = common_box(a.box, b.box);
-    const double enough = kStackedShare * std::min(a.area, b.area);
+    double enough = kStackedShare * std::min(a.area, b.area);
     if (window.empty() || window.size().x * window.size().y <= enough) return false;
     edges_.clear();
     add(a, window, {1, 0});
     add(b, window, {0, 1});
     steps += static_cast<double>(a.outline.size() + b.outline.size());
+    const double far = std::max({std::abs(window.min.x), std::abs(window.min.y),
+                                 std::abs(window.max.x), std::abs(window.max.y)});
+    enough = std::max(enough, kStackedDepth * far * (window.size().x + window.size().y));
     return sweep_area(edges_, Measure::shared, window, enough) > enough;
   }
 

@@ -10,9 +10,11 @@
 
 namespace wrapatlas {
 
-/// Two charts are stacked if they share more than this part of the smaller one's area; less is
-/// what rounding does to charts that touch.
+/// Two charts are stacked if they share more than this part of the smaller one's area,
 inline constexpr double kStackedShare = 1e-6;
+/// and more than a seam of this depth through their boxes' common part, in parts of the largest
+/// coordinate there: less is what rounding to 32 bits does to charts that touch.
+inline constexpr double kStackedDepth = 1e-6;
 
 struct StackedGroups {
   UnionFind groups;

@@ -78,7 +78,8 @@ bool keeps_all(FileFormat a, FileFormat b) {
 Status write_model(const Model& model, const AtlasMesh& atlas, const std::filesystem::path& path,
                    FileFormat format) {
   if (Status fits = check_fit(model.mesh, atlas); !fits) return fits;
-  if (model.source && keeps_all(format, model.format)) return model.source->save(path, model.mesh, atlas);
+  if (model.source && keeps_all(format, model.format))
+    return model.source->save(path, model.mesh, atlas);
   if (counts_v_downward(format) != model.v_points_down) {
     return write_new(format, path, model.mesh, turn_upside_down(atlas));
   }

@@ -196,6 +196,18 @@ TEST(Stacked, TouchingIsNotStacked) {
   EXPECT_EQ(charts_of(b.mesh, Stacked::keep).charts.size(), 3U);
 }
 
+TEST(Stacked, SeamsThatRoundingMadeAreNotStacked) {
+  // Thin strips, so that a seam is a large share of their area.
+  const auto strips = [](double depth) {
+    MeshBuilder b;
+    b.flat_face({{0.5, 0.5}, {0.6, 0.5}, {0.6, 0.501}, {0.5, 0.501}}, 0);
+    b.flat_face({{0.5, 0.501 - depth}, {0.6, 0.501 - depth}, {0.6, 0.502}, {0.5, 0.502}}, 1);
+    return charts_of(b.mesh).stacked;
+  };
+  EXPECT_EQ(strips(1.2e-7), 0U);
+  EXPECT_EQ(strips(1e-5), 2U);
+}
+
 TEST(Stacked, HolesAreNotCovered) {
   // A frame of four quads around a small square.
   MeshBuilder b;
@@ -267,6 +279,12 @@ TEST(Stacked, SaysWhetherTheSearchCameToItsEnd) {
   EXPECT_TRUE(group_stacked(std::span(set.charts).first(1), 0).complete);
 }
 
+Box2 box_of(const std::vector<Vec2>& points) {
+  Box2 box;
+  for (const Vec2 p : points) box.add(p);
+  return box;
+}
+
 TEST(Stacked, AgreesWithAllPairs) {
   std::mt19937 random(12);
   for (int round = 0; round < 40; ++round) {
@@ -289,7 +307,12 @@ TEST(Stacked, AgreesWithAllPairs) {
     for (std::size_t i = 0; i < count; ++i) {
       for (std::size_t j = 0; j < i; ++j) {
         const double smaller = std::min(set.charts[i].area, set.charts[j].area);
-        if (common_area(triangles[i], triangles[j]) <= 1e-6 * smaller) continue;
+        const Box2 a = box_of(triangles[i]), c = box_of(triangles[j]);
+        const Vec2 low{std::max(a.min.x, c.min.x), std::max(a.min.y, c.min.y)};
+        const Vec2 high{std::min(a.max.x, c.max.x), std::min(a.max.y, c.max.y)};
+        const double far = std::max({-low.x, -low.y, high.x, high.y, low.x, low.y});
+        const double seam = 1e-6 * far * (high.x - low.x + high.y - low.y);
+        if (common_area(triangles[i], triangles[j]) <= std::max(1e-6 * smaller, seam)) continue;
         stacked[i] = stacked[j] = true;
         const std::size_t from = group[i], to = group[j];
         for (std::size_t& g : group) g = g == from ? to : g;

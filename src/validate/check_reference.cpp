@@ -32,6 +32,9 @@ Outline outline_of(const Mesh& mesh, std::size_t face, Vec2 unit) {
   return outline;
 }
 
+constexpr double kTogether = 1;            ///< texels: charts that moved as one are no farther off
+constexpr std::size_t kMostParties = 256;  ///< of one stack that are told apart
+
 }  // namespace
 
 /// The objects that count are those of the reference: a format may have lost them, or keep other
@@ -179,6 +182,46 @@ Status Checker::find_stacks_of_reference() {
   return Done{};
 }
 
+/// Per chart the periods that bring it to its stack. Charts of a stack that moved as one, like a
+/// party, get shifts that keep them together, wherever the rest of the stack has gone.
+std::vector<std::array<double, 2>> Checker::shifts_to_stacks() const {
+  std::vector<std::uint32_t> order(original_.count);
+  for (std::uint32_t i = 0; i < order.size(); ++i) order[i] = i;
+  // The largest first: where others would be is told best by it.
+  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return std::tuple(stack_[a], -fits_.charts[a].weight, a) <
+           std::tuple(stack_[b], -fits_.charts[b].weight, b);
+  });
+  std::vector<std::array<double, 2>> shifts(report_.charts);
+  std::vector<std::uint32_t> parties;  // the first of each
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    const std::uint32_t i = order[k];
+    if (k == 0 || stack_[order[k - 1]] != stack_[i]) {
+      parties.assign(1, i);
+      continue;
+    }
+    const auto periods_to = [&](std::uint32_t other) {
+      const Vec2 way =
+          fits_.charts[other].placed(fits_.charts[i].middle) - fits_.charts[i].placed_middle;
+      return Vec2{way.x / size_.x, way.y / size_.y};
+    };
+    const auto moved_with = [&](std::uint32_t other) {
+      const Vec2 periods = periods_to(other);
+      return std::abs(periods.x - std::round(periods.x)) * size_.x < kTogether &&
+             std::abs(periods.y - std::round(periods.y)) * size_.y < kTogether;
+    };
+    auto party = std::find_if(parties.begin(), parties.end(), moved_with);
+    if (party == parties.end()) {
+      if (parties.size() < kMostParties) parties.push_back(i);
+      party = parties.begin();
+    }
+    const Vec2 periods = periods_to(*party);
+    shifts[i] = {shifts[*party][0] + std::round(periods.x),
+                 shifts[*party][1] + std::round(periods.y)};
+  }
+  return shifts;
+}
+
 /// Moves the pieces of cut charts together again, and the charts of a stack onto each other, by
 /// whole periods along the axes that wrap: that changes no distance on the torus.
 Status Checker::reassemble() {
@@ -187,13 +230,7 @@ Status Checker::reassemble() {
   if (options_.stacked_ok && reference_ != nullptr) {
     if (Status status = find_stacks_of_reference(); !status) return status;
   }
-  std::vector<std::array<double, 2>> to_stack(report_.charts);
-  for (std::size_t i = 0; i < original_.count; ++i) {
-    if (stack_[i] == i) continue;
-    const ChartFit &chart = fits_.charts[i], &first = fits_.charts[stack_[i]];
-    const Vec2 way = first.placed(chart.middle) - chart.placed_middle;
-    to_stack[i] = {std::round(way.x / size_.x), std::round(way.y / size_.y)};
-  }
+  const std::vector<std::array<double, 2>> to_stack = shifts_to_stacks();
   struct Key {
     std::uint32_t stack;
     std::array<std::int32_t, 2> shift;

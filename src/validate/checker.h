@@ -40,6 +40,7 @@ class Checker {
   void check_areas_of_faces();
   Status reassemble();
   Status find_stacks_of_reference();
+  [[nodiscard]] std::vector<std::array<double, 2>> shifts_to_stacks() const;
   void make_items();
   void check_tiles();
   void check_sides();

@@ -209,5 +209,23 @@ TEST(ValidateReference, StackedChartsMayStaySo) {
   EXPECT_TRUE(check(far, options, &b.mesh).ok());
 }
 
+TEST(ValidateReference, PartsOfAStackMayGoTheirOwnWay) {
+  // The second and third stay together, and across them the first one's way differs by a period.
+  Builder b;
+  b.box(0, 0, 4, 4);
+  b.box(3, 3, 20, 4);
+  b.box(20, 5, 12, 4);
+  CheckOptions options = options_of(Wrap::uv, 1);
+  options.stacked_ok = true;
+  const auto parted = [&](double height) {
+    return moved(b.mesh, [&](std::uint32_t f, Vec2 p) {
+      return f == 0 ? Vec2{52 - p.y, 38 + p.x} : p + Vec2{0, height};
+    });
+  };
+  for (int height = -64; height < 64; height += 4) {
+    EXPECT_TRUE(check(parted(height), options, &b.mesh).ok()) << height;
+  }
+}
+
 }  // namespace
 }  // namespace wrapatlas

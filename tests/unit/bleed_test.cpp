@@ -45,7 +45,11 @@ Mesh cube(bool mixed) {
                                                    {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
   if (mixed) std::swap(faces[1][1], faces[1][3]);
   std::vector<Vec3> points;
-  for (int i = 0; i < 8; ++i) points.push_back({double(i & 1), double(i / 2 & 1), double(i / 4)});
+  for (const double z : {0, 1}) {
+    for (const double y : {0, 1}) {
+      for (const double x : {0, 1}) points.push_back({x, y, z});
+    }
+  }
   return triangulated(test::bare_mesh(points, faces)).mesh;
 }
 

@@ -62,6 +62,8 @@ class Pack(unittest.TestCase):
         self.assertAlmostEqual(areas.sum(), whole_areas.sum(), places=9)
         np.testing.assert_allclose(cut.interpolate(positions), cut.positions)
         self.assertTrue(wrapatlas.check(cut, resolution=1024, padding=4, cut="uv").ok)
+        self.assertTrue(wrapatlas.check(cut, padding=4).ok)  # its own setting
+        self.assertFalse(wrapatlas.check(cut, padding=400).ok)
 
     def test_charts_hang_together_by_index_or_by_value(self):
         soup = self.uv[self.faces.ravel()]

@@ -15,12 +15,12 @@ def check(
     atlas: MeshLike,
     reference: MeshLike | None = None,
     *,
-    resolution: int | tuple[int, int] | str = 1024,
-    wrap: Literal["uv", "u", "v", "none"] = "none",
-    cut: Literal["uv", "u", "v", "none"] = "none",
+    resolution: int | tuple[int, int] | str | None = None,
+    wrap: Literal["uv", "u", "v", "none"] | None = None,
+    cut: Literal["uv", "u", "v", "none"] | None = None,
     padding: float = 0,
     margin: float = 0,
-    pages: int = 1,
+    pages: int | None = None,
     tolerance: float = 1e-3,
     stacked: Literal["separate", "keep"] = "separate",
     findings: int = 20,
@@ -31,8 +31,9 @@ def check(
     atlas: a Mesh, Packing, trimesh.Trimesh or path of a model, with UVs.
     reference: what it was packed from. Then every face has to be there, every chart to be a copy at
         one common scale, none mirrored.
-    resolution: texels of the atlas: N, (W, H) or "WxH".
-    wrap: axes on which it wraps. cut: axes along which it was cut (export="cut").
+    resolution: texels of the atlas: N, (W, H) or "WxH". wrap: axes on which it wraps. cut: axes
+        along which it was cut (export="cut"). Of a Packing they are its own if they are not given,
+        and so is pages; else 1024, "none", "none" and 1.
     padding: texels that must lie between charts. margin: and to a side that does not wrap.
     pages: how many UV tiles it may have, as UDIM numbers them.
     tolerance: texels by which a chart may differ from a similar copy of its source.
@@ -43,15 +44,16 @@ def check(
     no atlas, or if the meshes cannot be compared. Ctrl-C is heeded when it is done.
     """
     settings = _core.CheckSettings()
-    set_size(settings, resolution)
+    size, wraps, sides, tiles = _own_setting(atlas)
+    set_size(settings, size if resolution is None else resolution)
     set_given(
         settings,
         {
-            "wrap": wrap,
-            "cut": cut,
+            "wrap": wraps if wrap is None else wrap,
+            "cut": sides if cut is None else cut,
             "padding": padding,
             "margin": margin,
-            "pages": pages,
+            "pages": tiles if pages is None else pages,
             "tolerance": tolerance,
             "findings": findings,
             "threads": threads,
@@ -60,3 +62,13 @@ def check(
     settings.stacked_ok = stacked == "keep"
     other = None if reference is None else as_mesh(reference, "reference")
     return _core.check(as_mesh(atlas, "atlas"), other, settings)
+
+
+def _own_setting(atlas: MeshLike) -> tuple[tuple[int, int], str, str, int]:
+    """Texels, axes that wrap, axes it was cut along, pages."""
+    from ._packing import Packing
+
+    if not isinstance(atlas, Packing):
+        return (1024, 1024), "none", "none", 1
+    wrap, cut = ("none", atlas.wrap) if atlas.is_cut else (atlas.wrap, "none")
+    return (atlas.width, atlas.height), wrap, cut, max(1, atlas.pages)

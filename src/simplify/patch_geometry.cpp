@@ -11,10 +11,22 @@ constexpr double kNeedle = 1e-4;      ///< height over longest side
 /// `normal` is twice the area; a, b, c the corners.
 bool is_needle(const Vec3& normal, const Vec3& a, const Vec3& b, const Vec3& c) {
   const double longest2 = std::max({dot(b - a, b - a), dot(c - b, c - b), dot(a - c, a - c)});
-  return !(dot(normal, normal) > kNeedle * kNeedle * longest2 * longest2);
+  return !(length(normal) > kNeedle * longest2);
 }
 
 }  // namespace
+
+void Star::add(const Vec3& n) {
+  squares = squares + Symmetric3::square(n);
+  normal = normal + n;
+  ++faces;
+}
+
+void Star::take(const Vec3& n) {
+  squares = squares - Symmetric3::square(n);
+  normal = normal - n;
+  --faces;
+}
 
 PatchGeometry::PatchGeometry(const CollapseMesh& mesh, std::span<const Vec3> positions,
                              double scale)
@@ -101,9 +113,7 @@ bool PatchGeometry::spoils_triangle(std::uint32_t c, const Vec3& point) const {
     const bool was_needle = is_needle(before, position(mesh_.vertex(corner)), p, q);
     if (is_needle(after, point, p, q)) return !was_needle;
     if (was_needle) return dot(after, patch_normal) < 0;  // its own normal says little
-    const double along = dot(after, before);
-    return along < 0 ||
-           along * along < kLeastCosine * kLeastCosine * dot(after, after) * dot(before, before);
+    return dot(after, before) < kLeastCosine * length(after) * length(before);
   };
   const bool a_is_first = star(a).faces <= star(b).faces;
   return mesh_.any_corner(a_is_first ? a : b, is_spoilt) ||

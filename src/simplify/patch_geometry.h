@@ -21,16 +21,8 @@ struct Star {
   /// Of more triangles than may be looked at whenever something near the vertex changes.
   static constexpr std::uint32_t kMostAtOnce = 32;
   [[nodiscard]] bool is_hub() const { return faces > kMostAtOnce; }
-  void add(const Vec3& n) {
-    squares = squares + Symmetric3::square(n);
-    normal = normal + n;
-    ++faces;
-  }
-  void take(const Vec3& n) {
-    squares = squares - Symmetric3::square(n);
-    normal = normal - n;
-    --faces;
-  }
+  void add(const Vec3& n);
+  void take(const Vec3& n);
 };
 
 class PatchGeometry {

@@ -153,11 +153,8 @@ class Seamless {
   /// `by` in texels.
   [[nodiscard]] Vec3 seen_from(const Pixel& pixel, Vec2 by) const {
     const std::array<Vec2, 3> corner = texels_of(low_, pixel.face, side_);
-    const double area = signed_area2(corner[0], corner[1], corner[2]);
-    const double b = cross(corner[0] - corner[2], by) / area;
-    const double c = cross(corner[1] - corner[0], by) / area;
     const Triangle t = triangle_of(low_, pixel.face);
-    const WalkEnd end = walk_.go(pixel.face, pixel.weights, b * (t[1] - t[0]) + c * (t[2] - t[0]));
+    const WalkEnd end = walk_.go(pixel.face, pixel.weights, along_surface(t, corner, by));
     return projection_.normal(projection_.find(end.triangle, end.weights));
   }
 
@@ -294,6 +291,10 @@ int bench_seams(const SeamBenchOptions& options) {
     std::fill_n(bare.values.data() + 3 * i, 3, 0.5F);
   }
   print_map(scene, bare, "Control: nothing beyond the charts", Wrap::uv);
+  bake_options.bleed = 0;
+  const auto dilated = bake(scene.low, source, maps, bake_options);
+  if (!dilated) return 1;
+  print_map(scene, dilated->maps.front(), "Control: dilated alone, without --bleed", Wrap::uv);
   const auto walk = SurfaceWalk::build(scene.low);
   if (!walk) return 1;
   const Seamless seamless(scene.low, projection, *walk, options.resolution);

@@ -33,19 +33,19 @@ Vec3 in_frame(const Vec3& n, const LowPoint& frame) {
 Baker::Baker(const BakeScene& scene) : scene_(scene), reached_(scene.result.inside.size(), 0) {}
 
 bool Baker::run(int threads) {
-  const std::size_t bands = scene_.samples.band_count();
-  parallel_for(bands, threads, [&](std::size_t band) {
+  parallel_for(scene_.samples.band_count(), threads, [&](std::size_t band) {
     if (stopped_) return;
     bake_band(band);
     report(++done_);
   });
-  std::atomic<std::size_t> texels{0};
-  const std::size_t per_band = std::max<std::size_t>(reached_.size() / bands, 1);
-  scene_.bleed.for_each(reached_, threads, [&](std::size_t texel, const BeyondBorder& place) {
+  if (stopped_) return false;
+  const auto bake_beyond = [&](std::size_t texel, const BeyondBorder& place) {
     Sums sums{};
     add_sample(scene_.low.beyond(place), 256 * texel, sums);
     write(texel, sums, 1);
-    if (++texels % per_band == 0) report(bands + texels / per_band);
+  };
+  scene_.bleed.for_each(reached_, threads, bake_beyond, [&] {
+    report(++done_);
     return !stopped_;
   });
   scene_.result.texels_used = used_;
@@ -156,7 +156,7 @@ void Baker::report(std::size_t done) {
   const std::unique_lock lock(mutex_, std::try_to_lock);
   if (!lock) return;
   const double all = 2 * double(scene_.samples.band_count());
-  if (!scene_.options.progress(std::min(double(done) / all, 1.0))) stopped_ = true;
+  if (!scene_.options.progress(double(done) / all)) stopped_ = true;
 }
 
 }  // namespace wrapatlas

@@ -47,7 +47,7 @@ class Baker {
                                                            const HighPoint& at,
                                                            std::size_t number) const;
   void write(std::size_t texel, const Sums& sums, int count);
-  /// `done`: of all bands, each of which comes a second time for its bleed.
+  /// `done`: of all bands, each of which comes a second time for what lies beyond borders.
   void report(std::size_t done);
 
   BakeScene scene_;

@@ -4,7 +4,6 @@
 #include <atomic>
 #include <cmath>
 
-#include "texture/nearest_texels.h"
 #include "threads/parallel.h"
 
 namespace wrapatlas {
@@ -44,45 +43,44 @@ bool Bleed::find(const Outermost& from, Vec2 by, BeyondBorder& place) const {
   place.chart_triangle = from.sample.triangle;
   place.border_weights = nearest_weights(corner, start);
   const Vec2 way = start + from.to_centre + by - at(place.border_weights);
-  const double texels2 = signed_area2(corner[0], corner[1], corner[2]);
-  const double b = cross(corner[0] - corner[2], way) / texels2;
-  const double c = cross(corner[1] - corner[0], way) / texels2;
   const Triangle t = triangle_of(*mesh_, place.chart_triangle);
-  const Vec3 in_space = b * (t[1] - t[0]) + c * (t[2] - t[0]);
+  const Vec3 in_space = along_surface(t, corner, way);
   const double area = length(cross(t[1] - t[0], t[2] - t[0]));
-  if (!(length(in_space) <= kMostStretch * length(way) * std::sqrt(area / std::abs(texels2)))) {
-    return false;
-  }
+  const double texels = std::abs(signed_area2(corner[0], corner[1], corner[2]));
+  if (!(length(in_space) <= kMostStretch * length(way) * std::sqrt(area / texels))) return false;
   place.end = walk_->go(place.chart_triangle, place.border_weights, in_space);
   return true;
 }
 
+void Bleed::visit_row(int y, const std::vector<TexelOffset>& nearest,
+                      const std::function<void(std::size_t, const BeyondBorder&)>& visit) const {
+  BeyondBorder place;
+  for (int x = 0; x < width_; ++x) {
+    const TexelOffset by = nearest[static_cast<std::size_t>(x)];
+    const double distance = std::hypot(by.across, by.down);
+    if (distance == 0 || distance + TexelSamples::kReach > texels_) continue;
+    const Outermost* from =
+        outermost((x + by.across + width_) % width_, (y + by.down + height_) % height_);
+    if (from == nullptr) continue;
+    if (!find(*from, {-double(by.across), -double(by.down)}, place)) continue;
+    visit(std::size_t{1} * y * width_ + static_cast<std::size_t>(x), place);
+  }
+}
+
 void Bleed::for_each(const TexelMask& reached, int threads,
-                     const std::function<bool(std::size_t, const BeyondBorder&)>& visit) const {
+                     const std::function<void(std::size_t, const BeyondBorder&)>& visit,
+                     const std::function<bool()>& go_on) const {
   if (!walk_) return;
   const NearestTexels nearest(width_, height_, reached, wrap_);
   std::atomic<bool> stopped{false};
   parallel_for(outermost_.size(), threads, [&](std::size_t band) {
+    if (stopped) return;
     std::vector<TexelOffset> row;
-    BeyondBorder place;
     const int first = samples_->rows_per_band() * static_cast<int>(band);
     for (int y = first; y < first + samples_->band_rows(band); ++y) {
-      if (stopped || !nearest.find_row(y, row)) return;
-      for (int x = 0; x < width_; ++x) {
-        const TexelOffset by = row[static_cast<std::size_t>(x)];
-        const double distance = std::hypot(by.across, by.down);
-        if (distance == 0 || distance + TexelSamples::kReach > texels_) continue;
-        const Outermost* from =
-            outermost((x + by.across + width_) % width_, (y + by.down + height_) % height_);
-        if (from == nullptr) continue;
-        if (!find(*from, {-double(by.across), -double(by.down)}, place)) continue;
-        const std::size_t texel = std::size_t{1} * y * width_ + static_cast<std::size_t>(x);
-        if (!visit(texel, place)) {
-          stopped = true;
-          return;
-        }
-      }
+      if (nearest.find_row(y, row)) visit_row(y, row, visit);
     }
+    if (!go_on()) stopped = true;
   });
 }
 

@@ -8,6 +8,7 @@
 
 #include "bake/surface_walk.h"
 #include "bake/texel_samples.h"
+#include "texture/nearest_texels.h"
 #include "wrapatlas/texture.h"
 
 namespace wrapatlas {
@@ -35,10 +36,11 @@ class Bleed {
     if (walk_) outermost_[band].push_back({texel, sample, to_centre});
   }
 
-  /// Calls visit(texel, place) for the texels that are not `reached`, but lie near enough.
-  /// false from it: no further. Threads share the texels.
+  /// Calls visit(texel, place) for the texels that are not `reached`, but lie near enough, and
+  /// go_on() after each band; false: no further. Threads share them.
   void for_each(const TexelMask& reached, int threads,
-                const std::function<bool(std::size_t, const BeyondBorder&)>& visit) const;
+                const std::function<void(std::size_t, const BeyondBorder&)>& visit,
+                const std::function<bool()>& go_on) const;
 
  private:
   struct Outermost {
@@ -55,6 +57,8 @@ class Bleed {
         wrap_(wrap),
         texels_(texels) {}
   [[nodiscard]] const Outermost* outermost(int x, int y) const;
+  void visit_row(int y, const std::vector<TexelOffset>& nearest,
+                 const std::function<void(std::size_t, const BeyondBorder&)>& visit) const;
   /// false: there is nothing that can be said of the place.
   bool find(const Outermost& from, Vec2 by, BeyondBorder& place) const;
 

@@ -30,18 +30,23 @@ bool Resampler::run(const TransferTarget& target, Texture& texture, std::size_t 
   parallel_for(samples_.band_count(), threads, [&](std::size_t band) {
     if (stopped_) return;
     fill_band(band, target, texture, reached);
-    report(done * samples_.band_count() + ++bands_done_, all * samples_.band_count());
+    report(done, all);
   });
-  bands_done_ = 0;
-  bleed_.for_each(reached, threads, [&](std::size_t texel, const BeyondBorder& place) {
+  const auto fill_beyond = [&](std::size_t texel, const BeyondBorder& place) {
     const std::uint32_t triangle = place.end.triangle;
     const TransferSource* source = has_uvs(triangle) ? source_of(triangle, target) : nullptr;
     if (source != nullptr) {
       write(texel, value_beyond(place, *source, target.role), *source, target, texture);
       reached[texel] = 1;
     }
-    return !stopped_;
-  });
+  };
+  if (!stopped_) {
+    bleed_.for_each(reached, threads, fill_beyond, [&] {
+      report(done, all);
+      return !stopped_;
+    });
+  }
+  bands_done_ = 0;
   if (!stopped_) dilate(texture, reached, options_.wrap, options_.threads);
   return !stopped_;
 }
@@ -183,10 +188,12 @@ TextureValue Resampler::turned(const TextureValue& value, const Axes& from, cons
   return result;
 }
 
+// Each band comes twice: what lies beyond borders is filled later.
 void Resampler::report(std::size_t done, std::size_t all) {
+  const double share = double(++bands_done_) / (2 * double(samples_.band_count()));
   if (!options_.progress) return;
   const std::unique_lock lock(mutex_, std::try_to_lock);
-  if (lock && !options_.progress(double(done) / double(all))) stopped_ = true;
+  if (lock && !options_.progress((double(done) + share) / double(all))) stopped_ = true;
 }
 
 }  // namespace wrapatlas

@@ -82,6 +82,7 @@ class Resampler {
   /// The direction along the old axes, told along the new ones.
   static TextureValue turned(const TextureValue& value, const Axes& from, const Axes& to);
 
+  /// One more band of the texture after `done` of `all`.
   void report(std::size_t done, std::size_t all);
 
   const Mesh& before_;

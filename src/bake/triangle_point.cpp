@@ -14,6 +14,12 @@ double along(const Vec3& a, const Vec3& b, const Vec3& p) {
 
 }  // namespace
 
+Vec3 along_surface(const Triangle& t, const std::array<Vec2, 3>& flat, Vec2 way) {
+  const double area = signed_area2(flat[0], flat[1], flat[2]);
+  const double b = cross(flat[0] - flat[2], way) / area, c = cross(flat[1] - flat[0], way) / area;
+  return b * (t[1] - t[0]) + c * (t[2] - t[0]);
+}
+
 std::array<double, 3> nearest_weights(const Triangle& t, const Vec3& p) {
   const Vec3 ab = t[1] - t[0], ac = t[2] - t[0], ap = p - t[0];
   const double bb = dot(ab, ab), bc = dot(ab, ac), cc = dot(ac, ac);

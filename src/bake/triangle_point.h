@@ -19,6 +19,10 @@ inline Vec3 point_at(const Triangle& t, const std::array<double, 3>& weights) {
   return weights[0] * t[0] + weights[1] * t[1] + weights[2] * t[2];
 }
 
+/// The way in space that a way in the plane is on a triangle whose corners lie at `flat` there, of
+/// which the area must not be 0.
+Vec3 along_surface(const Triangle& t, const std::array<Vec2, 3>& flat, Vec2 way);
+
 /// The weights of the triangle's point that is nearest to `p`. Triangles without area as well.
 std::array<double, 3> nearest_weights(const Triangle& t, const Vec3& p);
 

@@ -8,6 +8,7 @@ import argparse
 import json
 import pathlib
 import shutil
+import statistics
 import sys
 import tempfile
 
@@ -67,6 +68,17 @@ def row(options, source, folder):
             f"{report['seconds']['total']:.1f}"]
 
 
+def totals(rows):
+    before, after = (sum(float(row[i]) for row in rows) for i in (3, 6))
+    psnr = [float(row[9]) for row in rows if row[9] != "equal"]
+    changes = [float(row[7].split()[0]) for row in rows]
+    if not psnr:
+        return f"{len(rows)} moved"
+    return (f"{len(rows)} moved; PSNR at least {min(psnr):.1f}, median {statistics.median(psnr):.1f} dB, "
+            f"{len(rows) - len(psnr)} equal; {100 * (after / before - 1):+.0f} % texels in all, "
+            f"{statistics.median(changes):+.0f} % in the median, more on {sum(c > 0 for c in changes)}")
+
+
 def main():
     options = arguments()
     measure.print_origin(options, f"time {options.time}, {options.views} views of {options.size}")
@@ -82,6 +94,7 @@ def main():
                 failures.append(str(failure))
     print(measure.table(["<model", "charts", "images", "million texels", "images after", "of",
                          "million texels", "change", "scale", "PSNR, dB", "SSIM", "s"], rows))
+    print(totals(rows))
     for failure in failures:
         print(f"not moved: {failure}")
 

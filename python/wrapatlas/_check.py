@@ -7,6 +7,7 @@ from typing import Literal
 from . import _core
 from ._meshes import MeshLike, as_mesh
 from ._options import set_given, set_size
+from ._own import own
 
 __all__ = ["check"]
 
@@ -44,16 +45,17 @@ def check(
     no atlas, or if the meshes cannot be compared. Ctrl-C is heeded when it is done.
     """
     settings = _core.CheckSettings()
-    size, wraps, sides, tiles = _own_setting(atlas)
-    set_size(settings, size if resolution is None else resolution)
+    known = own(atlas, "none")
+    set_size(settings, known.size if resolution is None else resolution)
+    own_wrap = "none" if known.cut != "none" else known.wrap
     set_given(
         settings,
         {
-            "wrap": wraps if wrap is None else wrap,
-            "cut": sides if cut is None else cut,
+            "wrap": own_wrap if wrap is None else wrap,
+            "cut": known.cut if cut is None else cut,
             "padding": padding,
             "margin": margin,
-            "pages": tiles if pages is None else pages,
+            "pages": known.pages if pages is None else pages,
             "tolerance": tolerance,
             "findings": findings,
             "threads": threads,
@@ -62,13 +64,3 @@ def check(
     settings.stacked_ok = stacked == "keep"
     other = None if reference is None else as_mesh(reference, "reference")
     return _core.check(as_mesh(atlas, "atlas"), other, settings)
-
-
-def _own_setting(atlas: MeshLike) -> tuple[tuple[int, int], str, str, int]:
-    """Texels, axes that wrap, axes it was cut along, pages."""
-    from ._packing import Packing
-
-    if not isinstance(atlas, Packing):
-        return (1024, 1024), "none", "none", 1
-    wrap, cut = ("none", atlas.wrap) if atlas.is_cut else (atlas.wrap, "none")
-    return (atlas.width, atlas.height), wrap, cut, max(1, atlas.pages)

@@ -14,6 +14,7 @@ from ._errors import UsageError
 from ._images import Picture, as_picture
 from ._meshes import MeshLike, as_mesh
 from ._options import set_given, set_size
+from ._own import own
 from ._progress import reported
 
 if TYPE_CHECKING:
@@ -57,7 +58,7 @@ def bake(
     high: MeshLike,
     map: MapKind | Sequence[MapKind] = "tangent",
     *,
-    resolution: int | tuple[int, int] | str = 1024,
+    resolution: int | tuple[int, int] | str | None = None,
     wrap: Wrap | None = None,
     samples: int = 2,
     bleed: float = 32,
@@ -75,8 +76,8 @@ def bake(
     low: with UVs; a Packing, Mesh, trimesh.Trimesh or path of a model. high: what is baked.
     map: one kind, or several: "tangent" (normals along MikkTSpace's tangents, green up), "object"
         (normals along the axes), "position", "occlusion", "color" (of color_from).
-    resolution: texels: N, (W, H) or "WxH".
-    wrap: axes on which the atlas repeats; as it was packed, if low is a Packing, else "uv".
+    resolution: texels: N, (W, H) or "WxH". wrap: axes on which the atlas repeats. If low is a
+        Packing both are as it was packed, if they are not given; else 1024 and "uv".
     samples: a texel is the mean of so many, squared.
     bleed: texels by which charts go on over their borders, along the surface, for mip levels to
         see; beyond, the nearest texel is repeated.
@@ -90,11 +91,12 @@ def bake(
     Raises UsageError and InputError (both ValueErrors), KeyboardInterrupt.
     """
     settings = _core.BakeSettings()
-    set_size(settings, resolution)
+    known = own(low, "uv")
+    set_size(settings, known.size if resolution is None else resolution)
     set_given(
         settings,
         {
-            "wrap": _wrap_of(low, wrap),
+            "wrap": known.wrap if wrap is None else wrap,
             "samples": samples,
             "bleed": bleed,
             "distance": distance,
@@ -126,14 +128,6 @@ def bake(
     )
 
 
-def _wrap_of(mesh: MeshLike, wrap: Wrap | None) -> str:
-    from ._packing import Packing
-
-    if wrap is not None:
-        return wrap
-    return mesh.wrap if isinstance(mesh, Packing) else "uv"
-
-
 def transfer(
     texture: npt.ArrayLike | Sequence[npt.ArrayLike | None],
     before: MeshLike,
@@ -141,7 +135,7 @@ def transfer(
     *,
     role: Literal["color", "normals", "data"] = "color",
     face_texture: npt.ArrayLike | None = None,
-    resolution: int | tuple[int, int] | str = 1024,
+    resolution: int | tuple[int, int] | str | None = None,
     wrap: Wrap | None = None,
     repeat: Literal["repeat", "mirror", "clamp"] = "repeat",
     keep_tangents: bool = False,
@@ -158,8 +152,8 @@ def transfer(
     role: "color" (sRGB: resampled in linear light), "normals" (of tangent space: turned with the
         chart) or "data" (as it is).
     face_texture: (F,) integers: which of the textures each face has.
-    resolution: texels of the new texture. wrap: axes on which the new atlas repeats; as it was
-        packed, if after is a Packing, else "uv".
+    resolution: texels of the new texture. wrap: axes on which the new atlas repeats. If after is a
+        Packing both are as it was packed, if they are not given; else 1024 and "uv".
     repeat: what the old texture does outside [0, 1].
     keep_tangents: normals stay along tangents that the mesh has: they are not turned.
     bleed: as in bake.
@@ -169,9 +163,10 @@ def transfer(
     ValueErrors), KeyboardInterrupt.
     """
     settings = _core.TransferSettings()
-    set_size(settings, resolution)
-    given = {"wrap": _wrap_of(after, wrap), "role": role, "repeat": repeat, "threads": threads}
-    set_given(settings, given)
+    known = own(after, "uv")
+    set_size(settings, known.size if resolution is None else resolution)
+    set_given(settings, {"wrap": known.wrap if wrap is None else wrap, "threads": threads})
+    set_given(settings, {"role": role, "repeat": repeat})
     settings.keep_tangents = keep_tangents
     settings.bleed = bleed
     if face_texture is None:
@@ -224,7 +219,7 @@ def render(
     settings = _core.RenderSettings()
     given = {"size": size, "views": views, "shade": shade, "space": space, "filter": filter}
     set_given(settings, given)
-    set_given(settings, {"wrap": _wrap_of(mesh, wrap), "level": level, "threads": threads})
+    set_given(settings, {"wrap": own(mesh, "uv").wrap if wrap is None else wrap, "level": level, "threads": threads})
     if azimuth is not None:
         settings.set_azimuth(azimuth)
     if elevation is not None:

@@ -58,6 +58,14 @@ std::vector<Vec2> convex_hull(std::span<const Vec2> points) {
   return hull;
 }
 
+double hull_area(std::span<const Vec2> hull) {
+  double twice = 0;
+  for (std::size_t i = 2; i < hull.size(); ++i) {
+    twice += signed_area2(hull[0], hull[i - 1], hull[i]);
+  }
+  return twice / 2;
+}
+
 double diameter_direction(std::span<const Vec2> hull) {
   const std::size_t n = hull.size();
   if (n < 2) return 0;

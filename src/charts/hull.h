@@ -11,6 +11,9 @@ namespace wrapatlas {
 /// Corners of the convex hull, counter-clockwise, no three on a line. O(n log n).
 std::vector<Vec2> convex_hull(std::span<const Vec2> points);
 
+/// Of a hull of fewer than three corners 0.
+double hull_area(std::span<const Vec2> hull);
+
 /// Direction (radians, in (-pi, pi]) of the longest distance between two corners of a hull; of
 /// equal ones that of the first pair of corners. By rotating calipers (Shamos 1978), O(corners).
 double diameter_direction(std::span<const Vec2> hull);

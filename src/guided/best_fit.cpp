@@ -49,7 +49,7 @@ RasterScale BestFitPage::raster_scale(int halvings) const {
 }
 
 /// Makes the board for charts of this size, if it is not there yet.
-void BestFitPage::use_board(int halvings, double area) {
+void BestFitPage::use_board(int halvings, double extent) {
   if (halvings != halvings_) {
     halvings_ = halvings;
     const Domain fine = fine_.domain();
@@ -64,12 +64,12 @@ void BestFitPage::use_board(int halvings, double area) {
       }
       coarse_->update();
     }
-    row_area_ = 0;
+    row_extent_ = 0;
   }
   // Smaller charts find room above, where larger ones did not.
   constexpr double kSmaller = 0.6;
-  if (row_area_ == 0 || area < kSmaller * row_area_) {
-    row_area_ = area;
+  if (row_extent_ == 0 || extent < kSmaller * row_extent_) {
+    row_extent_ = extent;
     first_row_ = 0;
   }
 }
@@ -188,18 +188,18 @@ void BestFitPage::take(const Piece& piece, int x, int y) {
   if (coarse_) coarse_->update();
 }
 
-std::optional<BestFitPage::Spot> BestFitPage::place(const RasterShape& shape, double area,
+std::optional<BestFitPage::Spot> BestFitPage::place(const ChartShape& shape,
                                                     std::span<const double> angles) {
-  const double along =
-      std::sqrt(area) * scale_ / std::sqrt(frame_.cell.x * frame_.cell.y) + 2 * frame_.growth + 1;
+  const double along = std::sqrt(shape.area) * scale_ / std::sqrt(frame_.cell.x * frame_.cell.y) +
+                       2 * frame_.growth + 1;
   const int halvings =
       std::max(0, static_cast<int>(std::floor(std::log2(along / care_.cells_along))));
-  use_board(halvings, area);
+  use_board(halvings, shape.extent);
   for (const bool everywhere : {false, true}) {
     if (everywhere && first_row_ == 0) break;
-    seek(shape, angles, everywhere);
+    seek(shape.raster, angles, everywhere);
     for (std::size_t i = 0; i < std::min(kSettled, candidates_.size()); ++i) {
-      if (auto spot = settle(shape, candidates_[i])) return spot;
+      if (auto spot = settle(shape.raster, candidates_[i])) return spot;
     }
   }
   return {};

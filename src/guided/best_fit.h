@@ -23,7 +23,7 @@ struct BestFitCare {
 };
 BestFitCare care_for(std::size_t charts, bool hurried);
 
-/// One page at one scale. Charts have to come by decreasing area, roughly: each is first looked
+/// One page at one scale. Charts have to come by decreasing extent, roughly: each is first looked
 /// for a place on a board whose cells are as large as its size allows, and then moved into contact
 /// on the board of the frame, which alone decides what is free.
 class BestFitPage {
@@ -36,7 +36,7 @@ class BestFitPage {
     std::int64_t cells = 0;  ///< of the frame's grid that it covers
   };
   /// Puts a chart at the best of the angles (radians), or nowhere if none is found.
-  std::optional<Spot> place(const RasterShape& shape, double area, std::span<const double> angles);
+  std::optional<Spot> place(const ChartShape& shape, std::span<const double> angles);
   /// Puts a chart that place() found no room for into the corner of the empty page, where its exact
   /// size decides; nowhere only if it is larger than the page at every angle.
   std::optional<Spot> place_alone(const RasterShape& shape, std::span<const double> angles);
@@ -48,7 +48,7 @@ class BestFitPage {
     double contact = 0;
   };
   [[nodiscard]] RasterScale raster_scale(int halvings) const;
-  void use_board(int halvings, double area);
+  void use_board(int halvings, double extent);
   void seek(const RasterShape& shape, std::span<const double> angles, bool everywhere);
   std::optional<Spot> settle(const RasterShape& shape, const Candidate& candidate);
   void take(const Piece& piece, int x, int y);
@@ -61,8 +61,8 @@ class BestFitPage {
   Occupancy fine_;
   std::unique_ptr<Occupancy> coarse_;  ///< none while halvings_ is 0
   int halvings_ = 0;                   ///< a cell of the board is 2^halvings_ of the frame's long
-  int first_row_ = 0;    ///< of the board; above it charts of this size found no place
-  double row_area_ = 0;  ///< of the charts that first_row_ is for
+  int first_row_ = 0;      ///< of the board; above it charts of this size found no place
+  double row_extent_ = 0;  ///< of the charts that first_row_ is for
   FreeMap free_;
   std::vector<Candidate> candidates_;
   std::vector<CellShift> shifts_;

@@ -33,7 +33,7 @@ class BestFitSearch {
     for (const ChartShape& shape : shapes_) {
       angles_.push_back(best_fit_angles(shape.base_angle, options.rotations));
     }
-    by_area_ = order_of(0);
+    by_extent_ = order_of(0);
   }
 
   void find_scale() {
@@ -86,12 +86,12 @@ class BestFitSearch {
     return std::sqrt(efficiency * pages * frame_.texels() / area_) / full_scale_;
   }
 
-  /// A chart order: by area, blurred a little for all numbers but 0.
+  /// A chart order: by extent, blurred a little for all numbers but 0.
   [[nodiscard]] std::vector<std::uint32_t> order_of(std::uint64_t number) const {
     std::vector<std::uint32_t> charts(shapes_.size());
     std::iota(charts.begin(), charts.end(), 0U);
-    return order_by_area(shapes_, std::move(charts),
-                         number == 0 ? 0 : options_.seed * 7919 + number);
+    return order_by_extent(shapes_, std::move(charts),
+                           number == 0 ? 0 : options_.seed * 7919 + number);
   }
 
   /// Success is not monotone: a scale that failed leaves some room above it (see scale_search.h).
@@ -115,7 +115,7 @@ class BestFitSearch {
         }
         return done();
       };
-      succeeded[i] = attempt(factors[i], by_area_, stop);
+      succeeded[i] = attempt(factors[i], by_extent_, stop);
     });
     settle();
     for (std::size_t i = kAtOnce; i-- > 0;) {
@@ -150,7 +150,7 @@ class BestFitSearch {
   double share_;
   double area_ = 0, full_scale_ = 0;
   std::vector<std::vector<double>> angles_;
-  std::vector<std::uint32_t> by_area_;
+  std::vector<std::uint32_t> by_extent_;
   std::mutex mutex_;
   double best_factor_ = 0, found_factor_ = 0;
 };

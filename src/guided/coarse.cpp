@@ -7,8 +7,9 @@ namespace wrapatlas {
 namespace {
 
 constexpr double kAimed = 0.85;  ///< efficiency at which the domain has CoarseOptions::side cells
-constexpr double kStart = 0.55;  ///< efficiency of the first domain
 constexpr int kLongest = 16;     ///< times CoarseOptions::side: charts and domains up to that
+constexpr double kThinnest =
+    1.5;  ///< cells; thinner charts are grown to it, that none slips through another
 constexpr double kLeastChance = 1e-3;
 constexpr int kFirstStride = 3;  ///< steps at a time until the first domain that was not filled
 /// Of a domain of any shape: the longest, as in the paper; by what power of two its aspect changes
@@ -44,15 +45,15 @@ CoarseSearch::CoarseSearch(std::span<const ChartShape> shapes, Vec2 lengths, boo
   scale.cells_per_unit = {cells_per_unit_, cells_per_unit_};
   scale.growth = options_.grown * options_.side / std::sqrt(texels_);
   scale.coverage = Coverage::center;
-  library_ =
-      std::make_unique<PieceLibrary>(shapes_, scale, options_.angles, kLongest * options_.side);
+  library_ = std::make_unique<PieceLibrary>(shapes_, scale, options_.angles,
+                                            kLongest * options_.side, kThinnest);
   double sum = 0;
   for (const ChartShape& shape : shapes_) {
     // Of the root of the root of the area: large charts matter more than tiny ones.
     sum += std::sqrt(std::sqrt(shape.area / area_)) + kLeastChance;
     chances_.push_back(sum);
   }
-  first_area_ = double(options_.side) * options_.side * kAimed / kStart;
+  first_area_ = double(options_.side) * options_.side * kAimed / options_.start;
   begin_anew();
 }
 

@@ -14,9 +14,10 @@
 namespace wrapatlas {
 
 struct CoarseOptions {
-  int side = 0;      ///< cells along the side of a square domain packed to 85 %
-  int angles = 128;  ///< that a chart can have; divides kAngleSteps
-  double grown = 0;  ///< texels by which charts are grown
+  int side = 0;         ///< cells along the side of a square domain packed to 85 %
+  int angles = 128;     ///< that a chart can have; divides kAngleSteps
+  double start = 0.55;  ///< efficiency on the first domain, if that has room for all charts
+  double grown = 0;     ///< texels by which charts are grown
   int stall_rounds = 100;
   int hasty_rounds = 40;   ///< instead, where it is to run until it is stuck
   int patience = 40;       ///< disturbances that lead to nothing before it begins anew

@@ -79,12 +79,12 @@ struct Task {
 /// Of many charts some may fit nowhere on a coarse grid, and separation then comes to nothing. True
 /// if it does not, and has been run to its end. Else best fit has been, to begin from.
 bool separate_or_fit(Task& task, std::span<const ChartShape> shapes) {
-  constexpr double kSuccess = 1.02;
+  constexpr double kSuccess = 1.02, kShare = 0.4;  // of the time, for what may come to nothing
   const double before = task.record.efficiency();
   if (task.frames.size() == 1) {
     Lines lines(shapes, task.options, task.frames, task.record);
     if (task.record.best()) lines.begin_with(*task.record.best(), false);
-    lines.run_until_stuck();
+    lines.run_until_stuck(kShare);
     if (task.record.efficiency() > kSuccess * before) {
       lines.go_on();
       return true;

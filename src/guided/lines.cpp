@@ -20,6 +20,8 @@ int coarse_side(std::size_t charts) {
 
 constexpr int kEpochs = 8;            ///< times the best layout is handed to the other lines
 constexpr double kShapesShare = 0.5;  ///< of the time, to choose among shapes of atlas
+/// A line that begins anywhere may at once be so much denser than the packing that is known.
+constexpr double kHoped = 1.3;
 /// Left for the last refinement: this share of the time, but no more than so many seconds.
 constexpr double kRefineShare = 0.1, kRefineSeconds = 0.5;
 
@@ -34,6 +36,7 @@ Lines::Lines(std::span<const ChartShape> shapes, const PackOptions& options,
     CoarseOptions coarse;
     coarse.side = coarse_side(shapes.size());
     coarse.any_shape = any_shape();
+    if (record.best()) coarse.start = std::min(coarse.start, kHoped * record.best()->efficiency);
     coarse.grown = options.padding / 2 + 0.3 * frame.cell.x;
     const std::uint64_t seed = options.seed * 1000003 + i;
     lines_.push_back(
@@ -73,12 +76,14 @@ Frame Lines::frame_of(const Line& line) const {
   return frame ? *frame : *line.frame;
 }
 
-void Lines::improve(Line& line, Effort& effort) {
+void Lines::improve(Line& line, double least_efficiency, Effort& effort) {
   if (!line.coarse.found() || line.coarse.efficiency() <= line.refined) return;
   line.refined = line.coarse.efficiency();
   const Frame frame = frame_of(line);
   const Layout layout = line.coarse.best(frame.lengths());
-  auto fine = refine(shapes_, frame, options_, layout, {}, effort, line.random);
+  RefineOptions how;
+  how.least_scale = std::sqrt(least_efficiency * frame.texels() / total_area(shapes_));
+  auto fine = refine(shapes_, frame, options_, layout, how, effort, line.random);
   if (fine) record_.offer(std::move(*fine), 1 + line.offers++ * begun_ + line.number);
 }
 
@@ -124,10 +129,13 @@ double Lines::end() const {
   return record_.timed() ? 1 - std::min(kRefineShare, kRefineSeconds / options_.time) : 1;
 }
 
-void Lines::improve_all() {
+void Lines::improve_all(double share) {
+  // A first success may grow a little yet.
+  constexpr double kGrowth = 0.95;
+  const double least = kGrowth * record_.efficiency();
   each_line([&](Line& line) {
-    Effort effort = record_.effort(1);
-    improve(line, effort);
+    Effort effort = record_.effort(share);
+    improve(line, least, effort);
   });
 }
 
@@ -136,23 +144,23 @@ void Lines::run() {
   go_on();
 }
 
-void Lines::run_until_stuck() {
+void Lines::run_until_stuck(double share) {
   const std::size_t wanted = lines_wanted();
   if (lines_.size() > wanted) {
     // Halving: all shapes get a little time, the better half of them as much again, and so on.
     int rounds = 1;
     while (lines_.size() >> rounds > wanted) ++rounds;
     for (int round = 0; round < rounds && !record_.stopped(); ++round) {
-      const double share = kShapesShare / rounds;
-      spend(spent_, spent_ + share, round == 0);
-      spent_ += share;
+      const double part = kShapesShare / rounds;
+      spend(spent_, spent_ + part, round == 0);
+      spent_ += part;
       keep_best(once() ? wanted : std::max(wanted, lines_.size() / 2));
       if (once()) break;
     }
   } else {
-    spend(0, end(), true);
+    spend(0, share * end(), true);
   }
-  improve_all();
+  improve_all(share);
 }
 
 void Lines::go_on() {
@@ -162,7 +170,7 @@ void Lines::go_on() {
     const double from = spent_ + (end() - spent_) * (epoch - 1) / kEpochs;
     const double to = spent_ + (end() - spent_) * epoch / kEpochs;
     spend(from, to, false);
-    improve_all();
+    improve_all(1);
   }
 }
 

@@ -23,8 +23,9 @@ class Lines {
   void begin_with(const Packing& packing, bool all);
   /// Searches until the record says that it is enough: the two below.
   void run();
-  /// Until each line has failed once. Of several frames: chooses the best ones.
-  void run_until_stuck();
+  /// Until each line has failed once, or this share of the time has passed. Of several frames:
+  /// chooses the best ones.
+  void run_until_stuck(double share = 1);
   void go_on();
 
  private:
@@ -41,8 +42,8 @@ class Lines {
   void spend(double from, double to, bool until_stuck);
   [[nodiscard]] bool any_shape() const { return options_.aspect == Aspect::search; }
   [[nodiscard]] Frame frame_of(const Line& line) const;
-  void improve(Line& line, Effort& effort);
-  void improve_all();
+  void improve(Line& line, double least_efficiency, Effort& effort);
+  void improve_all(double share);
   /// Neither a time nor moves: it ends when it is stuck.
   [[nodiscard]] bool once() const { return !record_.timed() && options_.moves == 0; }
   void keep_best(std::size_t count);

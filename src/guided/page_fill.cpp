@@ -11,18 +11,18 @@
 namespace wrapatlas {
 namespace {
 
-/// Whether a page is worth another try. Charts come by decreasing area: once some in a row found no
-/// room, those of about their size are mostly passed over.
+/// Whether a page is worth another try. Charts come by decreasing extent: once some in a row found
+/// no room, those of about their size are mostly passed over.
 class Patience {
  public:
-  [[nodiscard]] bool tries(double area) {
-    if (left_out_ >= wait_ || area < kSmaller * failed_area_) return true;
+  [[nodiscard]] bool tries(double extent) {
+    if (left_out_ >= wait_ || extent < kSmaller * failed_extent_) return true;
     ++left_out_;
     return false;
   }
-  void failed(double area) {
+  void failed(double extent) {
     left_out_ = 0;
-    failed_area_ = failures_ == 0 ? area : std::min(failed_area_, area);
+    failed_extent_ = failures_ == 0 ? extent : std::min(failed_extent_, extent);
     ++failures_;
     wait_ = failures_ < kFree ? 0 : std::min(2 * wait_ + 1, kLongestWait);
   }
@@ -38,7 +38,7 @@ class Patience {
   static constexpr double kSmaller = 0.9;
 
   int failures_ = 0, wait_ = 0, left_out_ = 0;
-  double failed_area_ = 0;
+  double failed_extent_ = 0;
 };
 
 double cells_of(const Frame& frame) { return double(frame.width) * frame.height; }
@@ -55,13 +55,13 @@ std::int64_t PageFilling::covered() const {
   return std::accumulate(cells.begin(), cells.end(), std::int64_t{0});
 }
 
-std::vector<std::uint32_t> order_by_area(std::span<const ChartShape> shapes,
-                                         std::vector<std::uint32_t> charts, std::uint64_t blur) {
+std::vector<std::uint32_t> order_by_extent(std::span<const ChartShape> shapes,
+                                           std::vector<std::uint32_t> charts, std::uint64_t blur) {
   constexpr double kBlur = 0.5;
   Random random(blur);
   std::vector<double> size(shapes.size());
   for (const std::uint32_t chart : charts) {
-    size[chart] = shapes[chart].area * (blur == 0 ? 1 : std::exp(kBlur * (random.unit() - 0.5)));
+    size[chart] = shapes[chart].extent * (blur == 0 ? 1 : std::exp(kBlur * (random.unit() - 0.5)));
   }
   std::stable_sort(charts.begin(), charts.end(),
                    [&](std::uint32_t a, std::uint32_t b) { return size[a] > size[b]; });
@@ -94,13 +94,13 @@ std::optional<PageFilling> fill_pages(const PageTask& task, double scale,
       const double least = least_cells(task, shape.area, scale);
       std::optional<BestFitPage::Spot> spot;
       const double free = cells_of(task.frame) - static_cast<double>(taken);
-      if (least <= free && (last || patience.tries(shape.area))) {
-        spot = page.place(shape.raster, shape.area, task.angles[chart]);
+      if (least <= free && (last || patience.tries(shape.extent))) {
+        spot = page.place(shape, task.angles[chart]);
         if (!spot && taken == 0) {
           spot = page.place_alone(shape.raster, task.angles[chart]);
           if (!spot) return {};
         }
-        if (!spot) patience.failed(shape.area);
+        if (!spot) patience.failed(shape.extent);
       }
       if (!spot) {
         if (last) return {};

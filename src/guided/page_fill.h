@@ -32,7 +32,7 @@ struct PageFilling {
   [[nodiscard]] std::int64_t covered() const;
 };
 
-/// Fills one page after the other: each gets, in the given order (by decreasing area, roughly),
+/// Fills one page after the other: each gets, in the given order (by decreasing extent, roughly),
 /// what it has room for. So every chart is on the first page that had room for it, but for those
 /// that were not tried where others of their size had failed. Nothing if a chart is left after
 /// `most` pages (0: any number), if one does not fit on an empty page, or if `stop` says so.
@@ -40,9 +40,10 @@ std::optional<PageFilling> fill_pages(const PageTask& task, double scale,
                                       std::span<const std::uint32_t> order, int most,
                                       const std::function<bool()>& stop);
 
-/// Charts by decreasing area, blurred a little if `blur` is not 0.
-std::vector<std::uint32_t> order_by_area(std::span<const ChartShape> shapes,
-                                         std::vector<std::uint32_t> charts, std::uint64_t blur);
+/// Charts by decreasing extent, thin rings and arcs before what has room inside them; blurred a
+/// little if `blur` is not 0.
+std::vector<std::uint32_t> order_by_extent(std::span<const ChartShape> shapes,
+                                           std::vector<std::uint32_t> charts, std::uint64_t blur);
 
 /// The chart that allows the smallest scale on a page of its own, if that is less than `scale`.
 struct TooLarge {

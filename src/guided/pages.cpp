@@ -35,7 +35,7 @@ class DensitySearch {
   void run() {
     std::vector<std::uint32_t> charts(task_.shapes.size());
     std::iota(charts.begin(), charts.end(), 0U);
-    auto filling = fill(order_by_area(task_.shapes, std::move(charts), 0), kMostPages);
+    auto filling = fill(order_by_extent(task_.shapes, std::move(charts), 0), kMostPages);
     if (!filling) return;
     best_ = std::move(*filling);
     offer();
@@ -104,7 +104,7 @@ class DensitySearch {
     std::array<std::optional<PageFilling>, kAtOnce> found;
     parallel_for(kAtOnce, thread_count(options_.threads), [&](std::size_t i) {
       found[i] =
-          fill(order_by_area(task_.shapes, charts, options_.seed * 7919 + blur + i), count - 1);
+          fill(order_by_extent(task_.shapes, charts, options_.seed * 7919 + blur + i), count - 1);
     });
     for (const auto& filling : found) {
       if (!filling) continue;

@@ -8,11 +8,24 @@
 
 namespace wrapatlas {
 
+namespace {
+
+double thickness_of(const Chart& chart) {
+  double outline = 0;
+  for (const OutlineEdge& edge : chart.outline) {
+    outline += length(chart.points[edge.to] - chart.points[edge.from]);
+  }
+  return outline > 0 ? 2 * chart.area / outline : 0;
+}
+
+}  // namespace
+
 std::vector<ChartShape> make_shapes(std::span<const Chart> charts) {
   std::vector<ChartShape> shapes;
   for (const Chart& chart : charts) {
-    shapes.push_back(
-        {make_raster_shape(chart), -smallest_box_direction(convex_hull(chart.points)), chart.area});
+    const std::vector<Vec2> hull = convex_hull(chart.points);
+    shapes.push_back({make_raster_shape(chart), -smallest_box_direction(hull), chart.area,
+                      std::max(chart.area, hull_area(hull)), thickness_of(chart)});
   }
   return shapes;
 }
@@ -24,13 +37,15 @@ double total_area(std::span<const ChartShape> shapes) {
 }
 
 PieceLibrary::PieceLibrary(std::span<const ChartShape> shapes, const RasterScale& scale, int angles,
-                           int max_side)
+                           int max_side, double least_thickness)
     : shapes_(shapes), scale_(scale), angles_(angles), max_side_(max_side), pieces_(shapes.size()) {
   const double cells_per_unit = std::max(scale.cells_per_unit.x, scale.cells_per_unit.y);
   for (const ChartShape& shape : shapes) {
     double radius = 0;
     for (const Vec2 p : shape.raster.points) radius = std::max(radius, length(p));
-    const double longest = std::ceil(2 * (radius * cells_per_unit + scale.growth)) + 1;
+    const double missing = (least_thickness - shape.thickness * cells_per_unit) / 2;
+    growth_.push_back(std::max(scale.growth, missing));
+    const double longest = std::ceil(2 * (radius * cells_per_unit + growth_.back())) + 1;
     reach_.push_back(static_cast<int>(std::min<double>(longest, max_side)));
   }
 }
@@ -40,7 +55,9 @@ const Piece& PieceLibrary::piece(std::size_t chart, int angle) {
   if (!slot) {
     const ChartShape& shape = shapes_[chart];
     const double radians = shape.base_angle + 2 * std::numbers::pi * angle / angles_;
-    const ChartRaster raster = rasterize(shape.raster, scale_, radians, max_side_);
+    RasterScale scale = scale_;
+    scale.growth = growth_[chart];
+    const ChartRaster raster = rasterize(shape.raster, scale, radians, max_side_);
     slot = std::make_unique<Piece>(make_piece(raster));
   }
   return *slot;

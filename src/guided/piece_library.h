@@ -18,6 +18,8 @@ struct ChartShape {
   RasterShape raster;
   double base_angle = 0;  ///< radians; angles are counted from here
   double area = 0;        ///< input units^2
+  double extent = 0;      ///< input units^2, of its convex hull
+  double thickness = 0;   ///< input units: of a strip as long as half its outline
 };
 
 /// Angles are counted from the smallest box.
@@ -28,12 +30,13 @@ double total_area(std::span<const ChartShape> shapes);
 /// Angle number k of a chart is base_angle + 2 pi k / angles. Not for several threads at once.
 class PieceLibrary {
  public:
+  /// Charts thinner than `least_thickness` (cells) are grown to it, so that on a coarse grid they
+  /// do not fall between the cells' centres.
   PieceLibrary(std::span<const ChartShape> shapes, const RasterScale& scale, int angles,
-               int max_side);
+               int max_side, double least_thickness = 0);
 
   [[nodiscard]] std::size_t charts() const { return shapes_.size(); }
   [[nodiscard]] int angles() const { return angles_; }
-  [[nodiscard]] const RasterScale& scale() const { return scale_; }
   /// No piece of the chart is longer, at any angle.
   [[nodiscard]] int reach(std::size_t chart) const { return reach_[chart]; }
   /// Stays valid for the life of the library.
@@ -42,6 +45,7 @@ class PieceLibrary {
  private:
   std::span<const ChartShape> shapes_;
   RasterScale scale_;
+  std::vector<double> growth_;  ///< cells, per chart
   int angles_;
   int max_side_;
   std::vector<int> reach_;

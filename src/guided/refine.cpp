@@ -47,7 +47,7 @@ std::optional<Packing> refine(std::span<const ChartShape> shapes, const Frame& f
       // The next attempt begins where this one came closest.
       if (fits && !how.exact) layout.spots = to_spots(places, library, domain);
       layout.scale *= 1 - how.first_step;
-      if (layout.scale < kLeastScale * start.scale) break;
+      if (layout.scale < std::max(how.least_scale, kLeastScale * start.scale)) break;
       continue;
     } else {
       layout = good;

@@ -17,7 +17,8 @@ struct RefineOptions {
   double first_step = 0.01;  ///< of the scale, relative
   double last_step = 0.001;
   int stall_rounds = 10;
-  int window = 6;      ///< cells
+  int window = 6;          ///< cells
+  double least_scale = 0;  ///< texels per input unit; below it a packing is of no use
   bool exact = false;  ///< the layout is right but for its scale: each attempt begins with it anew
 };
 

@@ -8,6 +8,7 @@
 #include "guided/cover.h"
 #include "guided/field.h"
 #include "guided/piece.h"
+#include "guided/piece_library.h"
 #include "guided/random.h"
 #include "support/random_piece.h"
 #include "support/shapes.h"
@@ -324,6 +325,26 @@ TEST(Guided, IsToldToStopOnce) {
   const auto packing = pack(test::mixed_charts(3, 8), options);
   ASSERT_TRUE(packing) << packing.error().message();
   EXPECT_TRUE(packing->interrupted);
+}
+
+/// If nothing lay inside the rings, no more than `area / apart` could be in use.
+TEST(Guided, ThinRingsHaveOthersInside) {
+  PackOptions options = guided_options();
+  options.padding = 0;
+  for (const int squares : {20, 50, 220}) {
+    std::vector<Chart> charts(3, test::arc(1, 0.01, 6.2, 64));
+    const double side = std::sqrt(1.9 / squares);
+    charts.resize(charts.size() + static_cast<std::size_t>(squares), test::rectangle(side, side));
+    double area = 0, apart = 0;
+    for (const ChartShape& shape : make_shapes(charts)) {
+      area += shape.area;
+      apart += shape.extent;
+    }
+    const auto packing = pack(charts, options);
+    ASSERT_TRUE(packing) << packing.error().message();
+    EXPECT_EQ(test::check_packing(charts, *packing, options), "");
+    EXPECT_GT(packing->efficiency, area / apart) << squares;
+  }
 }
 
 /// Of a needle, less than a cell of a coarse grid wide, there is nothing to be seen at some angles.

@@ -84,7 +84,14 @@ TEST(Hull, CalipersOnParallelSidesAndEqualDiameters) {
   }
 }
 
+TEST(Hull, AreaIsThatOfItsTriangles) {
+  const std::vector<Vec2> points{{5, 5}, {0, 0}, {4, 0}, {4, 3}, {2, 1}, {0, 3}, {4, 0}};
+  EXPECT_DOUBLE_EQ(hull_area(convex_hull(points)), 12 + 1.5 + 4);
+  EXPECT_EQ(hull_area(convex_hull(std::vector<Vec2>{{1, 2}, {2, 4}, {3, 6}})), 0);
+}
+
 TEST(Hull, FewPoints) {
+  EXPECT_EQ(hull_area({}), 0);
   EXPECT_EQ(diameter_direction({}), 0);
   EXPECT_EQ(smallest_box_direction({}), 0);
   const std::vector<Vec2> one{{1, 2}}, two{{1, 2}, {1, 5}};

@@ -267,7 +267,7 @@ TEST(Pages, EmptyingAPageLeavesASoundPacking) {
   for (const ChartShape& shape : shapes) angles.push_back(best_fit_angles(shape.base_angle, 16));
   std::vector<std::uint32_t> order(charts.size());
   std::iota(order.begin(), order.end(), 0U);
-  order = order_by_area(shapes, std::move(order), 0);
+  order = order_by_extent(shapes, std::move(order), 0);
   int before = 1, saved = 0;
   for (int step = 0; step < 70; ++step) {
     const PackOptions options = paged(0, 80 * std::pow(1.01, step));

@@ -54,7 +54,45 @@ std::int64_t overlap(PieceLibrary& library, const Domain& domain,
   return pairs;
 }
 
+/// Does any way of steps from cell to cell, across corners too, lead out of the piece's middle?
+bool leads_out(const Piece& piece) {
+  const int width = piece.width + 2, height = piece.height + 2;
+  std::vector<char> closed(static_cast<std::size_t>(width * height));
+  for (const PieceRun& run : piece.runs) {
+    const auto row = closed.begin() + (run.row + 1) * width + 1;
+    std::fill(row + run.begin, row + run.end, 1);
+  }
+  std::vector<std::pair<int, int>> next{{width / 2, height / 2}};
+  while (!next.empty()) {
+    const auto [x, y] = next.back();
+    next.pop_back();
+    if (x < 0 || y < 0 || x >= width || y >= height) return true;
+    char& here = closed[static_cast<std::size_t>(y * width + x)];
+    if (here != 0) continue;
+    here = 1;
+    for (int step = 0; step < 9; ++step) next.emplace_back(x + step % 3 - 1, y + step / 3 - 1);
+  }
+  return false;
+}
+
 Domain with_wrap(int side, int wrap) { return {side, side, (wrap & 1) != 0, (wrap & 2) != 0}; }
+
+TEST(PieceLibrary, NothingSlipsThroughThinCharts) {
+  std::vector<std::vector<Vec2>> loops(2);
+  for (int i = 0; i < 60; ++i) {
+    const double turn = 2 * 3.14159265358979 * i / 60;
+    loops[0].push_back({std::cos(turn), std::sin(turn)});
+    loops[1].push_back({0.999 * std::cos(turn), -0.999 * std::sin(turn)});
+  }
+  const std::vector<ChartShape> shapes = make_shapes(std::vector<Chart>{*chart_from_loops(loops)});
+  EXPECT_NEAR(shapes[0].thickness, 0.001, 1e-5);
+  PieceLibrary as_it_is(shapes, cells(20), 64, 400), grown(shapes, cells(20), 64, 400, 1.5);
+  for (int angle = 0; angle < 64; ++angle) {
+    EXPECT_TRUE(leads_out(as_it_is.piece(0, angle)));
+    EXPECT_FALSE(leads_out(grown.piece(0, angle))) << angle;
+    EXPECT_LE(grown.piece(0, angle).width, grown.reach(0));
+  }
+}
 
 TEST(Separator, LeavesTheOverlapItSays) {
   const auto shapes = random_shapes(1, 11);

@@ -131,7 +131,7 @@ int run(const CLI::App& app, BakeArguments& a) {
     source.corner_color = high->corner_color;
     if (own.groups.empty() && high->corner_color.empty()) {
       return report_error({ErrorKind::input, a.high,
-                           "it has no colours: no textures, and none of its vertices",
+                           "it has no colours: none of its materials, and none of its vertices",
                            "give --color-from FILE"});
     }
   }
@@ -151,8 +151,14 @@ int run(const CLI::App& app, BakeArguments& a) {
     if (error.kind == ErrorKind::interrupted)
       error = {error.kind, a.low, "stopped", "nothing was written"};
     if (error.where == "low mesh") error.where = a.low;
-    if (error.where == "high mesh") error.where = a.high;
+    if (error.where == "high mesh" || error.where == "color") error.where = a.high;
     return report_error(error);
+  }
+  if (!result->met) {
+    return report_error(
+        {ErrorKind::input, a.low,
+         fmt::format("no ray from it met {} within {:.4g}", a.high, result->distance),
+         "lay the two over each other, facing alike, or give a larger --distance"});
   }
   const double baking = seconds_now() - bake_start;
   OutputTransaction outputs;

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace wrapatlas::cli {
 
 std::string level_path(const std::string& path, std::size_t level) {
@@ -46,6 +48,7 @@ Json report_of(const BakeArguments& a, const BakeResult& result, double seconds,
           {"texels_used", result.texels_used},
           {"texels_nearest", result.texels_nearest},
           {"faces_without_uv", result.faces_without_uv},
+          {"faces_outside", result.faces_outside},
           {"position_origin", {result.low_corner.x, result.low_corner.y, result.low_corner.z}},
           {"position_extent", result.extent},
           {"threads", a.options.threads},
@@ -61,8 +64,19 @@ void summarize(const BakeArguments& a, const BakeResult& result, double seconds)
         result.faces_without_uv == 1 ? "is not" : "are not");
   }
   if (result.texels_nearest > 0) {
-    say("{}: note: at {} no ray met {} within {:.4g}; they show its nearest point\n", a.low,
-        quantity(result.texels_nearest, "texel"), a.high, result.distance);
+    const bool many = 4 * result.texels_nearest > result.texels_used;
+    say("{}: {}: at {} no ray met {} within {:.4g}; they show its nearest point{}\n", a.low,
+        many ? "warning" : "note", quantity(result.texels_nearest, "texel"), a.high,
+        result.distance, many ? ": do the two lie over each other? (else --distance)" : "");
+  }
+  if (a.bits == 8 && std::find(a.maps.begin(), a.maps.end(), BakedMap::positions) != a.maps.end()) {
+    say("{}: note: with 8 bits positions are in steps of {:.2g}; --bits 16 has finer ones\n", a.low,
+        result.extent / 255);
+  }
+  if (result.faces_outside > 0) {
+    say("{}: warning: {} partly outside the texture, and not baked there: was it packed with "
+        "--wrap uv?\n",
+        a.low, quantity(result.faces_outside, "face lies", "faces lie"));
   }
   say("{}: {} x {} texels, {:.1f} % of them in use, {:.2f} s -> {}\n", a.low, a.options.width,
       a.options.height, 100.0 * double(result.texels_used) / double(all), seconds, a.output);

@@ -155,6 +155,7 @@ int run(const CLI::App& app, CheckArguments& arguments) {
   }
   std::optional<Model> reference;
   if (!arguments.reference.empty()) {
+    load_options.in_scene = leaves_nodes_behind(arguments.reference, arguments.input);
     auto loaded = load_model(arguments.reference, load_options);
     if (!loaded) return report_error(loaded.error());
     if (const Status ok = refuse_overwriting(arguments.reference, *loaded, report_path); !ok) {

@@ -12,6 +12,7 @@
 #include <string>
 
 #include "io/file.h"
+#include "wrapatlas/model.h"
 
 namespace wrapatlas::cli {
 namespace {
@@ -72,6 +73,11 @@ Status write_json(const std::string& path, const Json& object) {
   const std::string text =
       object.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
   return path == "-" ? print_text(text) : write_file(path, text);
+}
+
+bool leaves_nodes_behind(const std::string& input, const std::string& output) {
+  const auto from = format_from_path(input), to = format_from_path(output);
+  return from && to && !keeps_all(*to, *from);
 }
 
 double seconds_now() {

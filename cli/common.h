@@ -58,6 +58,9 @@ Command make_report_command(CLI::App& parser);
 Status write_json(const std::string& path, const Json& object);
 
 double seconds_now();
+
+/// What goes into a file of another format has no nodes (LoadOptions::in_scene).
+bool leaves_nodes_behind(const std::string& input, const std::string& output);
 double peak_memory_mb();
 
 /// Ctrl-C sets a flag from here on, instead of ending the program.

@@ -3,13 +3,32 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstring>
 #include <exception>
 #include <iterator>
 #include <new>
+#include <string>
+#include <vector>
 
 #include "common.h"
+#include "suggestion.h"
 
 namespace {
+
+/// For the first option that the command does not have: "did you mean --padding? ", or nothing.
+std::string meant_option(const CLI::App& command, int argc, char** argv) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : command.get_options()) {
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  }
+  for (int i = 2; i < argc; ++i) {
+    const std::string given(argv[i], std::strcspn(argv[i], "="));
+    if (!given.starts_with("--") || command.get_option_no_throw(given) != nullptr) continue;
+    const std::string nearest = wrapatlas::cli::nearest_name(given, names);
+    return nearest.empty() ? "" : fmt::format("did you mean {}? else ", nearest);
+  }
+  return "";
+}
 
 int run(int argc, char** argv) {
   using namespace wrapatlas::cli;
@@ -38,12 +57,19 @@ int run(int argc, char** argv) {
                               make_simplify_command(parser), make_bake_command(parser),
                               make_transfer_command(parser), make_render_command(parser),
                               make_bench_command(parser),    make_report_command(parser)};
-  if (argc > 1 && argv[1][0] != '-' &&
-      std::none_of(std::begin(commands), std::end(commands),
-                   [&](const Command& command) { return command.app->get_name() == argv[1]; })) {
-    return report_error({wrapatlas::ErrorKind::usage, argv[1], "no such command",
-                         "use unwrap, pack, simplify, bake, transfer, render, check, info, bench "
-                         "or report; wrapatlas --help says more"});
+  const bool named = argc > 1 && argv[1][0] != '-';
+  const auto* const chosen = std::find_if(
+      std::begin(commands), std::end(commands),
+      [&](const Command& command) { return named && command.app->get_name() == argv[1]; });
+  if (named && chosen == std::end(commands)) {
+    std::vector<std::string> names;
+    for (const Command& command : commands) names.push_back(command.app->get_name());
+    const std::string nearest = nearest_name(argv[1], names);
+    return report_error(
+        {wrapatlas::ErrorKind::usage, argv[1], "no such command",
+         (nearest.empty() ? "" : fmt::format("did you mean {}? ", nearest)) +
+             "use unwrap, pack, simplify, bake, transfer, render, check, info, bench "
+             "or report; wrapatlas --help says more"});
   }
   try {
     parser.parse(argc, argv);
@@ -51,10 +77,12 @@ int run(int argc, char** argv) {
     return report_error({wrapatlas::ErrorKind::usage, "", error.what(), ""});
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return parser.exit(error);
-    const bool command = argc > 1 && argv[1][0] != '-';
-    return report_error(
-        {wrapatlas::ErrorKind::usage, "", error.what(),
-         fmt::format("see wrapatlas{}{} --help", command ? " " : "", command ? argv[1] : "")});
+    if (!named)
+      return report_error({wrapatlas::ErrorKind::usage, "", error.what(), "see wrapatlas --help"});
+    const bool unknown = error.get_exit_code() == static_cast<int>(CLI::ExitCodes::ExtrasError);
+    return report_error({wrapatlas::ErrorKind::usage, "", error.what(),
+                         (unknown ? meant_option(*chosen->app, argc, argv) : "") +
+                             fmt::format("see wrapatlas {} --help", argv[1])});
   }
   for (const Command& command : commands) {
     if (command.app->parsed()) return command.run();

@@ -12,6 +12,7 @@ int run(const CLI::App& app, PackArguments& arguments) {
   PackOutcome outcome;
   LoadOptions load_options;
   load_options.texcoord_set = arguments.texcoord;
+  load_options.in_scene = leaves_nodes_behind(arguments.input, arguments.output);
   const auto model = load_model(arguments.input, load_options);
   if (!model) return report_error(model.error());
   if (const Status ok = keep_input(arguments, *model); !ok) return report_error(ok.error());

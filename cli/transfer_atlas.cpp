@@ -84,9 +84,10 @@ Status check_result(const PackArguments& a, const Mesh& before, const AtlasMesh&
 
 Result<NewAtlas> pack_texture_set(const TransferArguments& a, const TextureSet& set,
                                   bool v_points_down, const std::string& label) {
-  Mesh mesh = mesh_in_texels(set);
+  const Mesh texels = mesh_in_texels(set);
+  Mesh mesh = texels;
   if (a.unwrap) {
-    auto cut = unwrapped(a, mesh, v_points_down, label);
+    auto cut = unwrapped(a, texels, v_points_down, label);
     if (!cut) return cut.error();
     mesh = *std::move(cut);
   }
@@ -104,7 +105,8 @@ Result<NewAtlas> pack_texture_set(const TransferArguments& a, const TextureSet& 
   if (const Status ok = check_result(a.pack, mesh, atlas, *packing, v_points_down); !ok) {
     return ok.error();
   }
-  return NewAtlas{*std::move(charts), *std::move(packing), std::move(atlas), {}};
+  const double thinned = share_thinned(mesh, packing->scale, texels);
+  return NewAtlas{*std::move(charts), *std::move(packing), std::move(atlas), thinned, {}};
 }
 
 Status fill_textures(const TransferArguments& a, const TextureSet& set, bool v_points_down,

@@ -24,6 +24,7 @@ struct NewAtlas {
   ChartSet charts;
   Packing packing;
   AtlasMesh atlas;                ///< of the set's mesh
+  double thinned = 0;             ///< share_thinned() of the set's faces
   std::vector<Texture> textures;  ///< as TextureSet::textures
 };
 

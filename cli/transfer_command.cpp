@@ -15,16 +15,16 @@
 namespace wrapatlas::cli {
 namespace {
 
+/// Of packing, but not here; left out of the help.
+constexpr const char* kRefused[] = {"--density", "--pages", "--udim", "--export"};
+
 Status check_options(const CLI::App& app, TransferArguments& a) {
   a.size_given = app.count("--resolution") > 0;
-  const std::string why = "textures move to one page", remedy = "leave it out";
-  const Ignored ignored[] = {
-      {"--density", true, why, remedy},
-      {"--pages", true, why, remedy},
-      {"--udim", true, why, remedy},
-      {"--export", true, "charts stay whole", remedy},
-      {"--aspect", !a.size_given, "the size is chosen, and square", "give --resolution too"},
-  };
+  std::vector<Ignored> ignored{
+      {"--aspect", !a.size_given, "the size is chosen, and square", "give --resolution too"}};
+  for (const char* option : kRefused) {
+    ignored.push_back({option, true, "textures move to one page, charts whole", "leave it out"});
+  }
   if (const Status ok = refuse_ignored(app, ignored); !ok) return ok;
   return Done{};
 }
@@ -69,6 +69,7 @@ Json report_of(const TransferArguments& a, const std::vector<TextureSet>& sets,
                     {"height", packing.height},
                     {"efficiency", packing.efficiency},
                     {"texel_scale", packing.scale},
+                    {"thinned", atlases[i].thinned},
                     {"textures", textures}});
   }
   return {{"version", WRAPATLAS_VERSION},
@@ -123,6 +124,15 @@ Status write(const TransferArguments& a, const Model& model, const std::vector<T
 
 void say_result(const TransferArguments& a, const std::vector<NewAtlas>& atlases,
                 const Totals& totals, double seconds) {
+  constexpr double kWorthSaying = 0.01;
+  for (std::size_t i = 0; i < atlases.size(); ++i) {
+    if (atlases[i].thinned < kWorthSaying) continue;
+    const std::string number = atlases.size() > 1 ? fmt::format("atlas {}: ", i + 1) : "";
+    say("{}: note: {}{:.0f} % of the old texels lie on faces that have less than nine tenths of "
+        "their detail now{}\n",
+        a.pack.input, number, 100 * atlases[i].thinned,
+        a.unwrap ? ": a new chart has one scale, its faces had several" : "");
+  }
   if (atlases.size() > 1) {
     for (std::size_t i = 0; i < atlases.size(); ++i) {
       const Packing& packing = atlases[i].packing;
@@ -208,6 +218,11 @@ Command make_transfer_command(CLI::App& parser) {
   add_bits(app, arguments->bits);
   add_bleed(app, arguments->bleed);
   add_pack_options(app, arguments->pack, "Model with textures: .gltf .glb .obj");
+  app.get_option("--output")
+      ->description(
+          "Where to write it, in the input's format. The pictures of an OBJ go beside it");
+  app.get_option("--resolution")->default_str("");
+  for (const char* option : kRefused) app.get_option(option)->group("");  // not in the help
   app.footer(std::string(kPackExitStatus) +
              "Without --resolution an atlas is the smallest at which no texture loses texels.\n"
              "--time is for each atlas.\n"

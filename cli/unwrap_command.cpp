@@ -150,6 +150,8 @@ int run(const CLI::App& app, UnwrapArguments& arguments) {
   LoadOptions load_options;
   load_options.texcoord_set = pack.texcoord;
   load_options.may_add_set = true;
+  load_options.in_scene =
+      arguments.last == Stage::charts || leaves_nodes_behind(pack.input, pack.output);
   auto model = load_model(pack.input, load_options);
   if (!model) return report_error(model.error());
   if (const Status ok = keep_input(pack, *model); !ok) return report_error(ok.error());

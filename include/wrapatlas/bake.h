@@ -54,7 +54,7 @@ struct BakeSource {
   std::span<const GroupColor> group_colors;
   std::span<const std::uint32_t> face_group;
   /// Per corner of the mesh, linear light: of faces that have no texture of these kinds. Without
-  /// these too they are white.
+  /// these too they are white, times the factor of their group.
   std::span<const std::array<float, 3>> corner_color;
   std::span<const Vec3> corner_normals;  ///< as in BakeOptions
   bool v_points_down = false;
@@ -65,10 +65,13 @@ struct BakeResult {
   TexelMask inside;             ///< texels that any sample on a chart fell into
   std::size_t texels_used = 0;  ///< of them
   std::size_t texels_nearest = 0;  ///< of them: no ray met the high mesh, so the nearest point did
+  bool met = false;                ///< did any ray meet the high mesh?
   std::size_t faces_without_uv = 0;  ///< of the low mesh: none, or of no area
-  double distance = 0;               ///< BakeOptions::distance in force
-  Vec3 low_corner;                   ///< of both meshes' box
-  double extent = 1;                 ///< its longest side
+  std::size_t faces_outside = 0;  ///< of it: by more than a texel outside [0, 1] along an axis that
+                                  ///< does not repeat
+  double distance = 0;            ///< BakeOptions::distance in force
+  Vec3 low_corner;                ///< of both meshes' box
+  double extent = 1;              ///< its longest side
 };
 
 /// Each sample of a texel lies on a triangle of the low mesh and looks along its smoothed normal,

@@ -28,7 +28,7 @@ struct LoadOptions {
   bool may_add_set = false;
   bool shading = false;  ///< fill Model::corner_normal and Model::corner_color
   /// The mesh is what the scene shows, meshes placed by the nodes that have them (glTF). Not for
-  /// models that are to be saved.
+  /// models that are to be saved as glTF with all else that they hold.
   bool in_scene = false;
 };
 
@@ -48,6 +48,8 @@ class Model {
     [[nodiscard]] virtual Result<ModelTextures> textures(bool base_colors_alone) const;
     virtual Status save(const std::filesystem::path& path, const Mesh& mesh, const AtlasMesh& atlas,
                         std::span<const NewTexture> textures) const;
+    /// Per material of face_material, as GroupColor has it; it may be shorter. For base_colors.
+    [[nodiscard]] virtual std::vector<std::array<float, 3>> base_factors() const { return {}; }
   };
 
   Mesh mesh;
@@ -73,6 +75,10 @@ Result<Model> load_model(const std::filesystem::path& path, const LoadOptions& o
 /// beside `base`. For fuzzers and callers with their own file systems.
 Result<Model> load_model_bytes(std::string bytes, FileFormat format, std::string_view name,
                                const std::filesystem::path& base, const LoadOptions& options = {});
+
+/// Whether save_model writes what was read in one format back whole in the other: else the mesh
+/// alone, which LoadOptions::in_scene then places as the nodes did.
+bool keeps_all(FileFormat output, FileFormat input);
 
 /// Writes the model with new UVs. Same format as read (gltf and glb count as one): everything else
 /// is kept. Another format (obj, ply, gltf, glb): positions, faces, UVs and which faces are of

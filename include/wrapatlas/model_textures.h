@@ -56,8 +56,9 @@ class Model;
 /// without textures), input (a texture that is missing, or neither PNG nor JPEG).
 Result<ModelTextures> load_textures(const Model& model, bool base_colors_alone = false);
 
-/// The textures of base colours alone (baseColorTexture, diffuseTexture, map_Kd). None, without an
-/// error, for formats without textures and for meshes without UVs. Errors: input.
+/// The textures of base colours alone (baseColorTexture, diffuseTexture, map_Kd), and the factors
+/// of materials (baseColorFactor, diffuseFactor; Kd where there is no map_Kd). No textures, without
+/// an error, for formats that have none and for meshes without UVs. Errors: input.
 Result<BaseColors> base_colors(const Model& model, int threads = 0);
 
 }  // namespace wrapatlas

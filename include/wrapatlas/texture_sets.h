@@ -46,4 +46,8 @@ Mesh mesh_in_texels(const TextureSet& set);
 /// together. O(corners).
 void scale_to_texels(Mesh& mesh, std::span<const std::uint32_t> face_chart, const Mesh& texels);
 
+/// The share of the area in `texels` that is of faces with less than nine tenths of their texels
+/// along a unit in `mesh`, times `scale`: they lose detail. The same faces in both. O(corners).
+double share_thinned(const Mesh& mesh, double scale, const Mesh& texels);
+
 }  // namespace wrapatlas

@@ -32,10 +32,14 @@ struct TransferSource {
   std::array<double, 6> matrix{1, 0, 0, 0, 1, 0};
 };
 
+inline constexpr std::array<float, 3> kNoFactor{1, 1, 1};
+
 /// The colours of one group of faces.
 struct GroupColor {
   const MipMaps* maps = nullptr;  ///< linear light; null: there are none
   TransferSource source;          ///< how they are read; its texture does not matter
+  std::array<float, 3> factor =
+      kNoFactor;  ///< linear light: of their values, or a colour without maps
 };
 
 /// A texture to be made. Texels of groups without a source stay 0, but for dilation.

@@ -28,4 +28,7 @@ struct PyMesh {
   [[nodiscard]] const Mesh& mesh() const { return model->mesh; }
 };
 
+/// v the other way: glTF counts it from the top, the other formats from the bottom.
+Mesh upside_down(Mesh mesh);
+
 }  // namespace wrapatlas::python

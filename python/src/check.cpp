@@ -15,12 +15,6 @@ constexpr const char* kViolations[] = {"overlap",     "gap",      "self_overlap"
                                        "bounds",      "margin",   "missing_face",
                                        "not_similar", "mirrored", "scale"};
 
-/// glTF counts v from the top, the other formats from the bottom.
-Mesh upside_down(Mesh mesh) {
-  for (Vec2& uv : mesh.texcoords) uv.y = 1 - uv.y;
-  return mesh;
-}
-
 CheckReport check(const PyMesh& atlas, const std::optional<PyMesh>& reference,
                   const CheckOptions& options) {
   for (const auto& [name, texels] :

@@ -24,12 +24,14 @@ const char* name_of(ErrorKind kind) {
 }  // namespace
 
 void raise(const Error& error) {
-  const std::string line = error.message();
   // File names need not be valid UTF-8.
-  const nb::object text = nb::steal(
-      PyUnicode_DecodeUTF8(line.data(), static_cast<Py_ssize_t>(line.size()), "backslashreplace"));
+  const auto text = [](const std::string& line) {
+    return nb::steal(PyUnicode_DecodeUTF8(line.data(), static_cast<Py_ssize_t>(line.size()),
+                                          "backslashreplace"));
+  };
   const nb::object exception =
-      nb::module_::import_("wrapatlas._errors").attr("make")(name_of(error.kind), text);
+      nb::module_::import_("wrapatlas._errors")
+          .attr("make")(name_of(error.kind), text(error.message()), text(error.where));
   PyErr_SetObject(exception.type().ptr(), exception.ptr());
   throw nb::python_error();
 }

@@ -84,15 +84,19 @@ PyMesh from_arrays(const std::optional<AnyArray>& positions, const AnyArray& fac
   return {model, positions.has_value()};
 }
 
-PyMesh load(const std::string& path, int texcoord) {
+PyMesh load(const std::string& path, int texcoord, bool in_scene) {
   LoadOptions options;
   options.texcoord_set = texcoord;
+  options.in_scene = in_scene;
   options.may_add_set = true;
   Result<Model> model = [&] {
     const nb::gil_scoped_release unlocked;
     return load_model(path, options);
   }();
-  return {std::make_shared<Model>(take(std::move(model)))};
+  auto shared = std::make_shared<Model>(take(std::move(model)));
+  const bool has_nodes = shared->format == FileFormat::gltf || shared->format == FileFormat::glb;
+  if (in_scene && has_nodes) shared->source.reset();  // saved, it is a new file
+  return {shared};
 }
 
 /// Corners of faces, by face: if all have the same number of them.
@@ -129,6 +133,11 @@ void save(const PyMesh& mesh, const std::string& path) {
 constexpr auto kInside = nb::rv_policy::reference_internal;
 
 }  // namespace
+
+Mesh upside_down(Mesh mesh) {
+  for (Vec2& uv : mesh.texcoords) uv.y = 1 - uv.y;
+  return mesh;
+}
 
 void bind_mesh(nb::module_& module) {
   nb::class_<PyMesh>(
@@ -176,7 +185,7 @@ void bind_mesh(nb::module_& module) {
       .def_prop_ro("_has_space", [](const PyMesh& m) { return m.has_space; });
   module.def("mesh_from_arrays", &from_arrays, nb::arg("positions").none(), nb::arg("faces"),
              nb::arg("uv").none(), nb::arg("uv_faces").none(), nb::arg("objects").none());
-  module.def("load", &load, nb::arg("path"), nb::arg("texcoord"));
+  module.def("load", &load, nb::arg("path"), nb::arg("texcoord"), nb::arg("in_scene"));
 }
 
 }  // namespace wrapatlas::python

@@ -126,6 +126,7 @@ void bind_bake(nb::module_& module) {
       .def_prop_ro("texels_used", [](const Baked& b) { return b.result.texels_used; })
       .def_prop_ro("texels_nearest", [](const Baked& b) { return b.result.texels_nearest; })
       .def_prop_ro("faces_without_uv", [](const Baked& b) { return b.result.faces_without_uv; })
+      .def_prop_ro("faces_outside", [](const Baked& b) { return b.result.faces_outside; })
       .def_prop_ro("distance", [](const Baked& b) { return b.result.distance; })
       .def_prop_ro("position_origin",
                    [](const Baked& b) {
@@ -144,15 +145,15 @@ struct TransferSettings {
   bool keep_tangents = false;  ///< of all faces
 };
 
-/// `textures`: of each group of faces; empty arrays are none.
+/// `textures`: of each group of faces.
 nb::ndarray<nb::numpy, float> transfer_texture(const PyMesh& before, const PyMesh& after,
-                                               const std::vector<AnyArray>& textures,
+                                               const std::vector<std::optional<AnyArray>>& textures,
                                                const std::optional<AnyArray>& face_group,
                                                const TransferSettings& settings,
                                                nb::object progress) {
   std::vector<Texture> old;
-  for (const AnyArray& texture : textures) {
-    old.push_back(texture.size() == 0 ? Texture() : read_texture(texture, "texture"));
+  for (const std::optional<AnyArray>& texture : textures) {
+    old.push_back(texture ? read_texture(*texture, "texture") : Texture());
   }
   std::vector<std::uint32_t> group(before.mesh().face_count(), 0);
   if (face_group) {
@@ -166,13 +167,16 @@ nb::ndarray<nb::numpy, float> transfer_texture(const PyMesh& before, const PyMes
     target.channels = std::max(target.channels, old[i].channels);
   }
   TransferOptions options = settings.options;
-  options.v_points_down = before.model->v_points_down;
+  options.v_points_down = after.model->v_points_down;
+  const bool turned = before.model->v_points_down != after.model->v_points_down;
+  const Mesh other_way = turned ? upside_down(before.mesh()) : Mesh();
+  const Mesh& source = turned ? other_way : before.mesh();
   const std::vector<std::uint8_t> keeps(settings.keep_tangents ? group.size() : 0, 1);
   options.keeps_tangents = keeps;
   LongWork work(std::move(progress), false);
   auto made = work.run<std::vector<Texture>>([&] {
     options.progress = [&work](double share) { return work.tell("transfer", share); };
-    auto result = transfer(before.mesh(), after.mesh(), group, {&target, 1}, options);
+    auto result = transfer(source, after.mesh(), group, {&target, 1}, options);
     if (result) work.tell("transfer", 1);
     return result;
   });

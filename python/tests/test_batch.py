@@ -105,6 +105,16 @@ class Resuming(WithDask):
 
 
 class Manifests(WithDask):
+    def test_results_are_no_assets(self):
+        box(self.meshes / "a.off")
+        (self.meshes / "._a.off").write_text("hidden")
+        for out in (self.meshes / "out", self.meshes):
+            self.out = out
+            for kept in (0, 1):
+                summary = self.run_batch()
+                self.assertEqual((summary.total, summary.done, summary.kept), (1, 1, kept), out)
+            shutil.rmtree(out / "assets")
+
     def test_names(self):
         box(self.meshes / "a b.off")
         rows = [("tä st/ 日本 é", "meshes/a b.off"), ("twice", "meshes/a b.off"), ("twice", "meshes/a b.off"),
@@ -112,7 +122,10 @@ class Manifests(WithDask):
                 ("around", "meshes/a b.off"), ("", "meshes/a b.off"), ("gone", "meshes/gone.off"), ("empty", "")]
         summary = self.run_batch(self.manifest(*rows))
         self.assertEqual((summary.total, summary.done, summary.failed), (10, 4, 6))
-        reasons = {row["name"]: row["reason"] for row in table(self.out) if row["state"] == "failed"}
+        failed = [row for row in table(self.out) if row["state"] == "failed"]
+        self.assertEqual({row["status"] for row in failed}, {""})  # no command ended
+        reasons = {row["name"]: row["reason"] for row in failed}
+        self.assertEqual(summary.failures, [*reasons.items()][:3])
         self.assertEqual(reasons["twice (line 4)"], "the name is that of line 3 already")
         self.assertEqual(reasons["twice/within (line 5)"], "the name lies within that of line 3")
         self.assertEqual(reasons["../out (line 6)"], "the name cannot be that of a folder")
@@ -247,8 +260,20 @@ class Recipes(WithDask):
         lines = recipe.command_lines(plan, {"input": "/a b/c.OBJ", "name": "c"})
         self.assertEqual(lines[1], ["check", "/a b/c.OBJ", "--threads", "1", "--json", "check.json"])
 
+    def test_options_with_their_values(self):
+        plan = recipe.from_dict("", {"steps": ["unwrap {input} -o a.obj --threads=4 --json=r.json"]})
+        line = recipe.command_lines(plan, {"input": "b.off", "name": "b"})[0]
+        self.assertEqual(line[-2:], ["--threads=4", "--json=r.json"])
+        self.assertEqual(recipe.given_value(line, "--json"), "r.json")
+        self.assertEqual(recipe.given_value(line, "-o"), "a.obj")
+        self.assertIsNone(recipe.given_value(line, "--image"))
+        step = recipe.load("pack", ["--image=a.png"]).steps[0]
+        self.assertNotIn("--image", step)
+
     def test_what_is_no_recipe(self):
-        for text in ("{}", "[]", '{"steps": []}', '{"steps": ["rm -rf /"]}', '{"steps": ["info x"], "y": 1}', "{"):
+        for text in ("{}", "[]", '{"steps": []}', '{"steps": ["rm -rf /"]}', '{"steps": ["info x"], "y": 1}', "{",
+                     '{"steps": ["info \'x"]}', '{"steps": [3]}', '{"steps": ["info x"], "accept": 0}',
+                     '{"steps": ["info x"], "accept": ["0"]}', '{"steps": ["info x"], "files": "high"}'):
             path = self.folder / "r.json"
             path.write_text(text)
             with self.subTest(text=text), self.assertRaises(batch.UsageError):

@@ -7,7 +7,7 @@ import numpy as np
 import shapes
 
 import wrapatlas
-from wrapatlas._errors import as_python
+from wrapatlas._errors import as_python, make
 
 FLAT, FACES = shapes.scattered_squares()
 POSITIONS, TRIANGLES = shapes.square()
@@ -30,6 +30,12 @@ class Arrays(unittest.TestCase):
             self.refused("faces: its shape is", call, good, TRIANGLES[:, :2])
             self.refused("faces: its shape is", call, good, TRIANGLES.ravel())
             self.refused("faces: its shape is", call, good, TRIANGLES[None])
+
+    def test_masked(self):
+        masked = np.ma.masked_array(FLAT, mask=np.zeros_like(FLAT, bool))
+        wrapatlas.pack(masked, FACES, time=0, resolution=64)  # nothing is
+        masked[0, 0] = np.ma.masked
+        self.refused("uv: some of it is masked", wrapatlas.pack, masked, FACES)
 
     def test_types(self):
         for call, good in ((wrapatlas.pack, FLAT), (wrapatlas.unwrap, POSITIONS)):
@@ -158,6 +164,9 @@ class Options(unittest.TestCase):
     def test_names_of_options_in_errors(self):
         self.assertEqual(as_python("raise --resolution, or lower --padding and --lambda"),
                          "raise resolution=, or lower padding= and lambda_=")
+        self.assertEqual(str(make("input", "scan--wrap.obj: bad; give --wrap", "scan--wrap.obj")),
+                         "scan--wrap.obj: bad; give wrap=")
+        self.assertEqual(str(make("usage", "--wrap: bad", "--wrap")), "wrap=: bad")
 
 
 if __name__ == "__main__":

@@ -18,6 +18,14 @@ class Bake(unittest.TestCase):
         low = wrapatlas.simplify(cls.high, 400)
         cls.low = wrapatlas.unwrap(low, time=0.2, resolution=128)
 
+    def test_what_lies_outside(self):
+        mesh = wrapatlas.Mesh(*shapes.square(), uv=np.array([[0.5, 0], [1.5, 0], [1.5, 1], [0.5, 1]]))
+        for wrap, count in (("uv", 0), ("none", 2)):
+            baking = wrapatlas.bake(mesh, mesh, wrap=wrap, resolution=16)
+            self.assertEqual(baking.faces_outside, count)
+        self.assertEqual(repr(baking), "<wrapatlas.Baking: tangent 16 x 16>")
+        self.assertNotEqual(baking, wrapatlas.bake(mesh, mesh, resolution=16))
+
     def test_maps(self):
         baking = wrapatlas.bake(self.low, self.high, ["tangent", "object", "position", "occlusion"],
                                 occlusion_rays=8)  # at the packing's own size
@@ -64,6 +72,18 @@ class Transfer(unittest.TestCase):
         b = wrapatlas.render(after, moved, size=128, shade="none").astype(float)
         self.assertLess(np.abs(a - b).mean(), 2)
 
+    def test_between_formats_that_count_v_from_either_side(self):
+        mesh = wrapatlas.unwrap(*shapes.box(), time=0).mesh
+        texture = shapes.checker()
+        with tempfile.TemporaryDirectory() as folder:
+            mesh.save(folder + "/a.glb")
+            other = wrapatlas.load(folder + "/a.glb")
+        self.assertTrue(other.v_points_down)
+        same = wrapatlas.transfer(texture, mesh, mesh, resolution=64)
+        for before, after in ((mesh, other), (other, mesh), (other, other)):
+            moved = wrapatlas.transfer(texture, before, after, resolution=64)
+            np.testing.assert_allclose(moved, same, atol=0.02)
+
     def test_several_textures(self):
         positions, faces = shapes.box()
         mesh = wrapatlas.unwrap(positions, faces, time=0, hard_edges=45)
@@ -76,6 +96,11 @@ class Transfer(unittest.TestCase):
             wrapatlas.transfer([red], mesh, mesh, face_texture=which)
         with self.assertRaisesRegex(ValueError, "not one for each face"):
             wrapatlas.transfer([red, red], mesh, mesh, face_texture=which[:3])
+        with self.assertRaisesRegex(ValueError, "one array"):
+            wrapatlas.transfer(red, mesh, mesh, face_texture=which)
+        for empty in (np.zeros((0, 0, 3), np.uint8), np.zeros((0, 4), np.uint8)):
+            with self.assertRaises(ValueError):
+                wrapatlas.transfer(empty, mesh, mesh)
         other = wrapatlas.unwrap(*shapes.square(), time=0)
         with self.assertRaisesRegex(ValueError, "differ in more than their UVs"):
             wrapatlas.transfer(red, mesh, other)

@@ -1,5 +1,6 @@
 """unwrap: meshes without UVs; files and trimesh in and out."""
 
+import json
 import subprocess
 import tempfile
 import unittest
@@ -69,6 +70,29 @@ class Unwrap(unittest.TestCase):
             Path(folder, "bad.obj").write_text("v 0 0 0\nf 1 2 3\n")
             with self.assertRaisesRegex(wrapatlas.InputError, "bad.obj"):
                 wrapatlas.load(folder + "/bad.obj")
+
+    def test_in_its_scene(self):
+        data = (SAMPLES / "coral.glb").read_bytes()
+        size = int.from_bytes(data[12:16], "little")
+        document = json.loads(data[20:20 + size])
+        at = [{"mesh": 0, "translation": [10, 0, 0]}, {"mesh": 0, "scale": [2, 2, 2]}]
+        document.update(nodes=at, scenes=[{"nodes": [0, 1]}], scene=0)
+        text = json.dumps(document).encode()
+        text += b" " * (-len(text) % 4)
+        whole = len(data) + len(text) - size
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder, "moved.glb")
+            path.write_bytes(data[:8] + whole.to_bytes(4, "little") + len(text).to_bytes(4, "little")
+                             + data[16:20] + text + data[20 + size:])
+            plain, placed = wrapatlas.load(path), wrapatlas.load(path, in_scene=True)
+            self.assertEqual(placed.face_count, 2 * plain.face_count)
+            once = plain.positions[plain.faces]
+            np.testing.assert_allclose(placed.positions[placed.faces],
+                                       np.concatenate([once + [10, 0, 0], 2 * once]), atol=1e-5)
+            placed.save(path)
+            again = wrapatlas.load(path)
+            np.testing.assert_allclose(again.positions[again.faces],
+                                       placed.positions[placed.faces], atol=1e-5)
 
     def test_trimesh(self):
         import trimesh

@@ -13,12 +13,12 @@ __all__ = ["floats", "indices", "pixels"]
 
 
 def _array(name: str, value: npt.ArrayLike) -> npt.NDArray[Any]:
+    if np.ma.is_masked(value):
+        raise UsageError(f"{name}: some of it is masked; fill it, or leave those rows out")
     try:
         array = np.asarray(value)
     except ValueError:  # rows of unequal lengths
         raise UsageError(f"{name}: its rows differ in length; pass an array of numbers") from None
-    if isinstance(array, np.ma.MaskedArray):
-        array = np.asarray(array.filled())
     return array
 
 
@@ -30,7 +30,7 @@ def _readable(array: npt.NDArray[Any]) -> npt.NDArray[Any]:
     """In the machine's order of bytes, and on whole items."""
     native = array.astype(array.dtype.newbyteorder("="), copy=False)
     whole = all(stride % native.itemsize == 0 for stride in native.strides)
-    return native if whole and native.flags.aligned else np.ascontiguousarray(native).copy()
+    return native if whole and native.flags.aligned else native.copy()
 
 
 def floats(name: str, value: npt.ArrayLike) -> npt.NDArray[Any]:

@@ -6,7 +6,7 @@ from typing import Literal
 
 from . import _core
 from ._meshes import MeshLike, as_mesh
-from ._options import set_given, set_size
+from ._options import choice, set_given, set_size
 from ._own import own
 
 __all__ = ["check"]
@@ -61,6 +61,6 @@ def check(
             "threads": threads,
         },
     )
-    settings.stacked_ok = stacked == "keep"
+    settings.stacked_ok = choice("stacked", stacked, "separate", "keep")
     other = None if reference is None else as_mesh(reference, "reference")
     return _core.check(as_mesh(atlas, "atlas"), other, settings)

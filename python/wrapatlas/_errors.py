@@ -51,6 +51,8 @@ def as_python(message: str) -> str:
     return re.sub(r"--([a-z][a-z-]*[a-z])(?: N\b)?", option, message)
 
 
-def make(kind: str, message: str) -> Error:
-    """For the library: the exception of an error."""
-    return _KINDS[kind](as_python(message))
+def make(kind: str, message: str, where: str = "") -> Error:
+    """For the library: the exception of an error. `where`, with which its message begins, is left as
+    it is, unless it is an option: file names may look like some."""
+    kept = where if message.startswith(where) and not where.startswith("--") else ""
+    return _KINDS[kind](kept + as_python(message[len(kept):]))

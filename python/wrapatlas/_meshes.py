@@ -102,16 +102,19 @@ def core_mesh(
     )
 
 
-def load(path: str | os.PathLike[str], texcoord: int = 0) -> Mesh:
+def load(path: str | os.PathLike[str], texcoord: int = 0, in_scene: bool = False) -> Mesh:
     """Reads a model: .obj .off .ply .stl .gltf .glb.
 
     What is packed of it and saved in the same format keeps all that the file held.
     texcoord: which set of UVs of a glTF.
+    in_scene: the meshes of a glTF where its nodes have them, each as often as they do; for models
+        that are to lie over others (bake), or to be saved in another format. Saved as glTF it is a
+        new file, with geometry and UVs alone.
     Raises OSError if it cannot be opened, InputError (a ValueError) if it cannot be used.
     """
     with open(path, "rb"):  # for the system's own error
         pass
-    return Mesh(_core.load(os.fspath(path), texcoord))
+    return Mesh(_core.load(os.fspath(path), texcoord, in_scene))
 
 
 def as_mesh(value: MeshLike, name: str = "mesh") -> _core.Mesh:

@@ -146,12 +146,12 @@ def pack_settings(options: Mapping[str, Any]) -> _core.PackSettings:
         settings.use_pages_as_needed()
     if settings.method == "lprm02":
         settings.rotations = 1
-    settings.cut = _choice("export", options.get("export", "continuous"), "continuous", "cut")
+    settings.cut = choice("export", options.get("export", "continuous"), "continuous", "cut")
     _refuse_useless(settings, options)
     return settings
 
 
-def _choice(name: str, value: object, no: str, yes: str) -> bool:
+def choice(name: str, value: object, no: str, yes: str) -> bool:
     if value not in (no, yes):
         raise UsageError(f"{name}={value!r}: no such choice; give {no} or {yes}")
     return value == yes
@@ -197,7 +197,7 @@ def unwrap_settings(options: Mapping[str, Any]) -> _core.UnwrapSettings:
 
 
 def keep_best(options: Mapping[str, Any]) -> bool:
-    return _choice("on_interrupt", options.get("on_interrupt", "raise"), "raise", "best")
+    return choice("on_interrupt", options.get("on_interrupt", "raise"), "raise", "best")
 
 
 def set_given(settings: Any, given: Mapping[str, Any]) -> None:

@@ -91,7 +91,8 @@ class Packing(_core.PackedMesh):
     def image(self, size: int = 1024, tiles: bool = False) -> Picture:
         """Draws the atlas: (height, width, 3) uint8, charts in colours of their own, numbered.
 
-        size: pixels along the longer side, 16 to 8192.
+        size: pixels along the longer side of a page, 16 to 8192; fewer where the picture would be
+            longer than 16384.
         tiles: draw it twice along each axis that wraps, to show how it goes on.
         """
         return as_picture(self._draw(_picture_size(size), tiles))

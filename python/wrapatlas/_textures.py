@@ -26,7 +26,7 @@ Wrap = Literal["uv", "u", "v", "none"]
 MapKind = Literal["tangent", "object", "position", "occlusion", "color"]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Baking:
     """What bake returns. A notebook shows its first map."""
 
@@ -38,6 +38,9 @@ class Baking:
     """Texels from which no ray met the high mesh, so that its nearest point was taken."""
     faces_without_uv: int
     """Of the low mesh: not baked."""
+    faces_outside: int
+    """Of the low mesh, as triangles: partly outside [0, 1] on an axis that does not wrap, and not
+    baked there."""
     distance: float
     """How far the high mesh was looked for, in units of the meshes."""
     position_origin: tuple[float, float, float]
@@ -51,6 +54,10 @@ class Baking:
 
     def _repr_png_(self) -> bytes | None:
         return self.image._repr_png_()
+
+    def __repr__(self) -> str:
+        sizes = ", ".join(f"{kind} {one.shape[1]} x {one.shape[0]}" for kind, one in self.maps.items())
+        return f"<wrapatlas.Baking: {sizes}>"
 
 
 def bake(
@@ -73,7 +80,8 @@ def bake(
 ) -> Baking:
     """Writes what a detailed mesh looks like into the atlas of a simpler one.
 
-    low: with UVs; a Packing, Mesh, trimesh.Trimesh or path of a model. high: what is baked.
+    low: with UVs; a Packing, Mesh, trimesh.Trimesh or path of a model. high: what is baked. Where
+        nodes of a glTF move its meshes, give load(path, in_scene=True) for both.
     map: one kind, or several: "tangent" (normals along MikkTSpace's tangents, green up), "object"
         (normals along the axes), "position", "occlusion", "color" (of color_from).
     resolution: texels: N, (W, H) or "WxH". wrap: axes on which the atlas repeats. If low is a
@@ -122,6 +130,7 @@ def bake(
         inside=inside,
         texels_nearest=baked.texels_nearest,
         faces_without_uv=baked.faces_without_uv,
+        faces_outside=baked.faces_outside,
         distance=baked.distance,
         position_origin=baked.position_origin,
         position_extent=baked.position_extent,
@@ -173,9 +182,10 @@ def transfer(
         textures = [pixels("texture", cast(npt.ArrayLike, texture))]
         groups = None
     else:
+        if isinstance(texture, np.ndarray) and texture.ndim < 4:
+            raise UsageError("texture: one array; with face_texture pass a list of them")
         several = cast("Sequence[npt.ArrayLike | None]", texture)
-        none = np.zeros((0, 0, 1), np.uint8)
-        textures = [none if one is None else pixels("texture", one) for one in several]
+        textures = [None if one is None else pixels("texture", one) for one in several]
         groups = indices("face_texture", face_texture)
     old, new = as_mesh(before, "before"), as_mesh(after, "after")
     with reported(progress) as report:

@@ -81,7 +81,7 @@ class ChartType(enum.IntEnum):
     Invalid = 4
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Chart:
     """A chart of one mesh."""
 

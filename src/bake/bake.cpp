@@ -57,11 +57,13 @@ Status check_options(const BakeSource& high, std::span<const BakedMap> maps, con
     }
   }
   const bool color = std::find(maps.begin(), maps.end(), BakedMap::color) != maps.end();
-  const bool textured = high.color != nullptr || !high.group_colors.empty();
+  const bool textured =
+      high.color != nullptr || std::any_of(high.group_colors.begin(), high.group_colors.end(),
+                                           [](const GroupColor& of) { return of.maps != nullptr; });
   if (color && textured && high.mesh->texcoords.empty()) {
     return usage("color", "the high mesh has no UVs for its texture", "give both");
   }
-  if (color && !textured && high.corner_color.empty()) {
+  if (color && !textured && high.group_colors.empty() && high.corner_color.empty()) {
     return usage("color", "the high mesh has no colours", "give a texture, or some per corner");
   }
   return Done{};
@@ -116,6 +118,27 @@ void set_box(const Mesh& low, const Mesh& high, BakeResult& result) {
   result.extent = longest > 0 ? longest : 1;
 }
 
+/// Faces with a corner outside, as BakeResult counts them.
+std::size_t count_outside(const Mesh& low, const BakeOptions& o) {
+  const auto beyond = [](double at, int texels) {
+    return at * texels < -1 || at * texels > texels + 1.0;
+  };
+  const auto is_outside = [&](std::uint32_t at) {
+    if (at == kNone) return false;
+    const Vec2 uv = low.texcoords[at];
+    return (!wraps_u(o.wrap) && beyond(uv.x, o.width)) ||
+           (!wraps_v(o.wrap) && beyond(uv.y, o.height));
+  };
+  std::size_t count = 0;
+  for (std::size_t face = 0; face < low.face_count(); ++face) {
+    const auto begin = low.corner_texcoord.begin();
+    const bool outside =
+        std::any_of(begin + low.face_begin[face], begin + low.face_begin[face + 1], is_outside);
+    count += outside ? 1 : 0;
+  }
+  return count;
+}
+
 }  // namespace
 
 Result<BakeResult> bake(const Mesh& low, const BakeSource& high, std::span<const BakedMap> maps,
@@ -135,6 +158,7 @@ Result<BakeResult> bake(const Mesh& low, const BakeSource& high, std::span<const
                              options.v_points_down, options.samples);
   if (Status ok = check_samples(samples, low_triangles, "low mesh"); !ok) return ok.error();
   result.faces_without_uv = samples.faces_without_uv();
+  result.faces_outside = count_outside(low, options);
   if (result.faces_without_uv == low_triangles.mesh.face_count()) {
     return Error{ErrorKind::input, "low mesh", "no face has UVs to bake on", "unwrap it first"};
   }

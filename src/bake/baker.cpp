@@ -50,6 +50,7 @@ bool Baker::run(int threads) {
   });
   scene_.result.texels_used = used_;
   scene_.result.texels_nearest = nearest_;
+  scene_.result.met = met_;
   return !stopped_;
 }
 
@@ -82,14 +83,17 @@ void Baker::bake_texel(const std::vector<TexelSample>& samples, std::size_t band
   const std::size_t texel = y * width + static_cast<std::size_t>(x);
   Sums sums{};
   int count = 0;
-  bool missed = false;
+  bool missed = false, met = false;
   for (std::size_t i = 0; i < across * across; ++i) {
     const TexelSample& one = sample(i);
     if (one.triangle == kNone || scene_.samples.chart(one.triangle) != chart) continue;
     const LowPoint from = scene_.low.at(one, scene_.samples.corners(one.triangle));
-    missed |= !add_sample(from, texel * 256 + i, sums) && one.is_on();
+    const bool hit = add_sample(from, texel * 256 + i, sums);
+    missed |= !hit && one.is_on();
+    met |= hit;
     ++count;
   }
+  if (met) met_ = true;
   write(texel, sums, count);
   if (best.is_on()) {
     scene_.result.inside[texel] = 1;

@@ -55,6 +55,7 @@ class Baker {
   std::mutex mutex_;
   std::atomic<bool> stopped_{false};
   std::atomic<std::size_t> done_{0}, used_{0}, nearest_{0};
+  std::atomic<bool> met_{false};
 };
 
 }  // namespace wrapatlas

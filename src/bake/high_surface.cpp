@@ -48,12 +48,16 @@ Vec3 HighSurface::normal(const HighPoint& point) const {
 }
 
 TextureValue HighSurface::color(const HighPoint& point) const {
-  const std::size_t group =
-      source_->group_colors.empty() ? 0 : source_->face_group[(*face_)[point.triangle]];
-  const bool textured = source_->group_colors.empty()
-                            ? source_->color != nullptr
-                            : source_->group_colors[group].maps != nullptr;
-  if (textured) return texture_color(point);
+  if (source_->group_colors.empty()) {
+    return source_->color != nullptr ? texture_color(point) : corner_color(point);
+  }
+  const GroupColor& from = source_->group_colors[source_->face_group[(*face_)[point.triangle]]];
+  TextureValue value = from.maps != nullptr ? texture_color(point) : corner_color(point);
+  for (std::size_t c = 0; c < 3; ++c) value[c] *= from.factor[c];
+  return value;
+}
+
+TextureValue HighSurface::corner_color(const HighPoint& point) const {
   if (source_->corner_color.empty()) return {1, 1, 1, 1};
   TextureValue sum{0, 0, 0, 1};
   for (std::size_t i = 0; i < 3; ++i) {

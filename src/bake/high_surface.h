@@ -46,6 +46,7 @@ class HighSurface {
   [[nodiscard]] Vec3 face_normal(std::uint32_t triangle) const;
 
   [[nodiscard]] TextureValue texture_color(const HighPoint& point) const;
+  [[nodiscard]] TextureValue corner_color(const HighPoint& point) const;
 
   const Mesh* mesh_;
   const std::vector<std::uint32_t>* face_;    ///< of the source, per triangle

@@ -217,4 +217,16 @@ void scale_to_texels(Mesh& mesh, std::span<const std::uint32_t> face_chart, cons
   mesh.texcoords = std::move(scaled);
 }
 
+double share_thinned(const Mesh& mesh, double scale, const Mesh& texels) {
+  constexpr double kThinner = 0.9;  // texels along a unit
+  double all = 0, thinned = 0;
+  for (std::uint32_t face = 0; face < mesh.face_count(); ++face) {
+    const double before = area_in_uv(texels, face);
+    const double after = scale * scale * area_in_uv(mesh, face);
+    all += before;
+    if (after < kThinner * kThinner * before) thinned += before;
+  }
+  return all > 0 ? thinned / all : 0;
+}
+
 }  // namespace wrapatlas

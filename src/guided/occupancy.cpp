@@ -28,22 +28,51 @@ Occupancy::Occupancy(const Domain& domain)
   }
   const int tables = stretch_levels_ + square_levels_ - 1;
   bits_.resize(static_cast<std::size_t>(std::ptrdiff_t{tables} * domain.height * stride_));
+  const std::ptrdiff_t blocks = (stride_ - 1 + kBlockWords - 1) / kBlockWords;
   open_.resize(static_cast<std::size_t>(square_levels_) * static_cast<std::size_t>(domain.height),
-               ~std::uint64_t{0});
+               ~std::uint64_t{0} >> std::max<std::ptrdiff_t>(0, kWordBits - blocks));
   if (domain_.wraps_x && domain_.wraps_y) return;
   for (int y = 0; y < domain_.height; ++y) changed_.push_back(y);
+  first_changed_ = 0;
+  last_changed_ = words_for(domain_.width) - 1;
   update();
 }
 
 void Occupancy::take(int y, int begin, int end) {
   y %= domain_.height;
   std::uint64_t* row = words(0, y);
-  for_each_part(begin, end, domain_.width, [&](int from, int to) { set_span(row, from, to); });
+  for_each_part(begin, end, domain_.width, [&](int from, int to) {
+    set_span(row, from, to);
+    const int first = from / kWordBits, last = (to - 1) / kWordBits;
+    first_changed_ = last_changed_ < 0 ? first : std::min(first_changed_, first);
+    last_changed_ = std::max(last_changed_, last);
+  });
   if (changed_.empty() || changed_.back() != y) changed_.push_back(y);
 }
 
-/// Fills in what lies outside of the domain.
-void Occupancy::extend(std::uint64_t* row) const {
+/// The words of any table that a change of table 0 can reach: a bit stands for at most 64, from its
+/// own on. All, where those beyond a side are not just the same words again.
+Occupancy::Span Occupancy::span_of_change() const {
+  const int count = words_for(domain_.width);
+  const bool same_again = domain_.width % kWordBits == 0 && first_changed_ > 0;
+  if (domain_.wraps_x && !same_again) return {0, count};
+  return {std::max(first_changed_ - 1, 0), last_changed_ + 1};
+}
+
+bool Occupancy::is_whole(Span span) const {
+  return span.to - span.from == words_for(domain_.width);
+}
+
+/// Fills in what lies outside of the domain, where these words have changed.
+void Occupancy::extend(std::uint64_t* row, Span span) const {
+  if (is_whole(span)) {
+    extend_whole(row);
+  } else if (domain_.wraps_x) {
+    repeat(row, span);
+  }
+}
+
+void Occupancy::extend_whole(std::uint64_t* row) const {
   const int width = domain_.width;
   const int last = width % kWordBits;
   const int end_word = static_cast<int>(stride_) - 1;
@@ -54,10 +83,14 @@ void Occupancy::extend(std::uint64_t* row) const {
     std::fill(row + word, row + end_word, ~std::uint64_t{0});
     return;
   }
+  if (last == 0) {
+    repeat(row, {0, width / kWordBits});
+    return;
+  }
   int word = width / kWordBits;
-  if (last != 0) row[word] &= ~std::uint64_t{0} >> (kWordBits - last);
+  row[word] &= ~std::uint64_t{0} >> (kWordBits - last);
   if (width >= kWordBits) {
-    if (last != 0) row[word++] |= row[0] << last;
+    row[word++] |= row[0] << last;
     for (; word < end_word; ++word) row[word] = bits_at(row, word * kWordBits - width);
     row[-1] = bits_at(row, width - kWordBits);
     return;
@@ -70,60 +103,92 @@ void Occupancy::extend(std::uint64_t* row) const {
   row[-1] = bits_at(row, (kWordBits + width - 1) / width * width - kWordBits);
 }
 
-void Occupancy::update_stretches(int y) {
-  extend(words(0, y));
+/// Of a domain of whole words: these words again and again.
+void Occupancy::repeat(std::uint64_t* row, Span span) const {
+  const int count = domain_.width / kWordBits;
+  const int end_word = static_cast<int>(stride_) - 1;
+  for (int around = count; around + span.from < end_word; around += count) {
+    std::copy(row + span.from, row + std::min(span.to, end_word - around),
+              row + around + span.from);
+  }
+  row[-1] = row[count - 1];
+}
+
+void Occupancy::update_stretches(int y, Span span) {
+  extend(words(0, y), span);
   for (int level = 1; level < stretch_levels_; ++level) {
     const std::uint64_t* from = row(stretch_table(level - 1), y);
     std::uint64_t* to = words(stretch_table(level), y);
     const int step = 1 << (level - 1);
-    for (int word = 0; word < words_for(domain_.width); ++word) {
+    for (int word = span.from; word < span.to; ++word) {
       to[word] = from[word] | bits_at(from, word * kWordBits + step);
     }
-    extend(to);
+    extend(to, span);
   }
 }
 
 /// A square is four of the level below.
-void Occupancy::update_squares(int level, int y) {
-  std::uint64_t& open = open_[static_cast<std::size_t>(level * domain_.height + y)];
-  open = 0;
+void Occupancy::update_squares(int level, int y, Span span) {
   const int step = 1 << (level - 1);
   std::uint64_t* to = words(square_table(level), y);
   if (!domain_.wraps_y && y + 2 * step > domain_.height) {
     std::fill(to - 1, to - 1 + stride_, ~std::uint64_t{0});
+    open_[static_cast<std::size_t>(level * domain_.height + y)] = 0;
     return;
   }
   const int below = y + step < domain_.height ? y + step : y + step - domain_.height;
   const std::uint64_t* near = row(square_table(level - 1), y);
   const std::uint64_t* far = row(square_table(level - 1), below);
-  for (int word = 0; word < words_for(domain_.width); ++word) {
+  for (int word = span.from; word < span.to; ++word) {
     const int x = word * kWordBits + step;
     to[word] = near[word] | far[word] | bits_at(near, x) | bits_at(far, x);
   }
-  extend(to);
-  const std::ptrdiff_t words = stride_ - 1;
-  for (std::ptrdiff_t word = 0, block = 0; word < words; word += kBlockWords, ++block) {
-    std::uint64_t taken = ~std::uint64_t{0};
-    for (std::ptrdiff_t i = word; i < std::min(word + kBlockWords, words); ++i) taken &= to[i];
-    if (taken != ~std::uint64_t{0}) open |= std::uint64_t{1} << std::min<std::ptrdiff_t>(block, 63);
+  extend(to, span);
+  update_open(level, y, span);
+}
+
+/// Of the blocks that these words are in, and of their repetitions.
+void Occupancy::update_open(int level, int y, Span span) {
+  constexpr int kLastBlock = kWordBits - 1;  // and all that follow
+  const std::uint64_t* row = this->row(square_table(level), y);
+  std::uint64_t& open = open_[static_cast<std::size_t>(level * domain_.height + y)];
+  const int count = words_for(domain_.width), end_word = static_cast<int>(stride_) - 1;
+  const auto end_of = [&](int block) {
+    return block == kLastBlock ? end_word : std::min((block + 1) * kBlockWords, end_word);
+  };
+  const int end = is_whole(span) ? end_word : span.to;
+  for (int around = 0; around + span.from < end_word; around += count) {
+    const int last = std::min(around + end, end_word) - 1;
+    int block = std::min((around + span.from) / kBlockWords, kLastBlock);
+    for (; block <= std::min(last / kBlockWords, kLastBlock); ++block) {
+      const bool has_free =
+          std::any_of(row + block * kBlockWords, row + end_of(block),
+                      [](std::uint64_t taken) { return taken != ~std::uint64_t{0}; });
+      const std::uint64_t bit = std::uint64_t{1} << block;
+      open = has_free ? open | bit : open & ~bit;
+    }
+    if (is_whole(span)) return;
   }
 }
 
 void Occupancy::update() {
+  if (changed_.empty()) return;
+  const Span span = span_of_change();
   std::sort(changed_.begin(), changed_.end());
   changed_.erase(std::unique(changed_.begin(), changed_.end()), changed_.end());
-  for (const int y : changed_) update_stretches(y);
+  for (const int y : changed_) update_stretches(y, span);
   for (int level = 1; level < square_levels_; ++level) {
     // The rows whose squares reach into one that changed; those below 0 are at the other end.
     int next = domain_.wraps_y ? 1 - domain_.height : 0;
     for (const int y : changed_) {
       for (int row = std::max(next, y - (1 << level) + 1); row <= y; ++row) {
-        update_squares(level, row < 0 ? row + domain_.height : row);
+        update_squares(level, row < 0 ? row + domain_.height : row, span);
       }
       next = y + 1;
     }
   }
   changed_.clear();
+  last_changed_ = -1;
 }
 
 }  // namespace wrapatlas

@@ -49,23 +49,33 @@ class Occupancy {
   /// Takes cells [begin, end) of row y, folded onto the domain; within it where it does not wrap.
   /// Call update() before the next look.
   void take(int y, int begin, int end);
-  /// Brings the tables up to date. O(rows that changed * width / 64 * tables).
+  /// Brings the tables up to date. O(rows that changed * width of the change / 64 * tables).
   void update();
 
  private:
   [[nodiscard]] std::uint64_t* words(int table, int y) {
     return bits_.data() + row_offset(table, y);
   }
-  void extend(std::uint64_t* row) const;
-  void update_stretches(int y);
-  void update_squares(int level, int y);
+  /// Words of a row, within the domain.
+  struct Span {
+    int from, to;
+  };
+  [[nodiscard]] Span span_of_change() const;
+  [[nodiscard]] bool is_whole(Span span) const;
+  void extend(std::uint64_t* row, Span span) const;
+  void extend_whole(std::uint64_t* row) const;
+  void repeat(std::uint64_t* row, Span span) const;
+  void update_stretches(int y, Span span);
+  void update_squares(int level, int y, Span span);
+  void update_open(int level, int y, Span span);
 
   Domain domain_;
   int stretch_levels_ = 1, square_levels_ = 1;
   std::ptrdiff_t stride_;
   std::vector<std::uint64_t> bits_;
-  std::vector<std::uint64_t> open_;  ///< open_blocks(), level by level
-  std::vector<int> changed_;         ///< rows
+  std::vector<std::uint64_t> open_;            ///< open_blocks(), level by level
+  std::vector<int> changed_;                   ///< rows
+  int first_changed_ = 0, last_changed_ = -1;  ///< words of all of them
 };
 
 /// The 64 bits from bit x of a row on. x >= -64.

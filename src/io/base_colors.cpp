@@ -12,12 +12,17 @@ bool is_base_color(std::string_view place) {
   return false;
 }
 
-Result<BaseColors> base_colors(const Model& model, int threads) {
-  BaseColors own;
-  if (model.mesh.texcoords.empty() || !model.source) return own;
+namespace {
+
+GroupColor& group_of(std::size_t material, BaseColors& own) {
+  if (own.groups.size() <= material) own.groups.resize(material + 1);
+  return own.groups[material];
+}
+
+Status add_textures(const Model& model, int threads, BaseColors& own) {
   auto textures = load_textures(model, true);
   if (!textures) {
-    if (textures.error().kind == ErrorKind::usage) return own;
+    if (textures.error().kind == ErrorKind::usage) return Done{};
     return textures.error();
   }
   own.maps.resize(textures->images.size());
@@ -28,8 +33,24 @@ Result<BaseColors> base_colors(const Model& model, int threads) {
       srgb_to_linear(image, threads);
       maps = make_mip_maps(std::move(image), MipFilter::mean);
     }
-    if (own.groups.size() <= use.material) own.groups.resize(use.material + std::size_t{1});
-    own.groups[use.material] = {&maps, use.source};
+    GroupColor& group = group_of(use.material, own);
+    group.maps = &maps;
+    group.source = use.source;
+  }
+  return Done{};
+}
+
+}  // namespace
+
+Result<BaseColors> base_colors(const Model& model, int threads) {
+  BaseColors own;
+  if (!model.source) return own;
+  if (!model.mesh.texcoords.empty()) {
+    if (const Status ok = add_textures(model, threads, own); !ok) return ok.error();
+  }
+  const std::vector<std::array<float, 3>> factors = model.source->base_factors();
+  for (std::size_t material = 0; material < factors.size(); ++material) {
+    if (factors[material] != kNoFactor) group_of(material, own).factor = factors[material];
   }
   if (own.groups.empty()) return own;
   own.face_group = model.face_material;

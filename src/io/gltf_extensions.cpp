@@ -85,7 +85,7 @@ void remark_on_textures(const GltfContents& contents, std::vector<std::string>& 
   const auto ours = [](const GltfTextureUse& use) { return use.follows_atlas; };
   const auto moved = [](const GltfTextureUse& use) { return use.follows_atlas && use.transformed; };
   if (std::any_of(uses.begin(), uses.end(), ours)) {
-    remarks.push_back("textures keep the old layout: bake or transfer them");
+    remarks.push_back("its textures are made for its UVs: with new ones bake or transfer them");
   }
   if (std::any_of(uses.begin(), uses.end(), moved)) {
     remarks.push_back(fmt::format(

@@ -6,6 +6,7 @@
 
 #include "io/number.h"
 #include "mesh/polygon_plane.h"
+#include "wrapatlas/transfer.h"
 
 namespace wrapatlas {
 namespace {
@@ -68,6 +69,25 @@ Status read_gltf_shading(const GltfContents& contents, Model& model) {
     if (*colors) read_colors(primitive, **colors, model);
   }
   return Done{};
+}
+
+std::vector<std::array<float, 3>> read_gltf_factors(const GltfContents& contents) {
+  std::vector<std::array<float, 3>> factors{kNoFactor};  // of faces without a material
+  for (const Json& material : array_member(contents.file.json, "materials")) {
+    std::array<float, 3>& factor = factors.emplace_back(kNoFactor);
+    const auto read = [&factor](const Json* holder, const char* key) {
+      if (holder == nullptr) return;
+      const Json& values = array_member(*holder, key);
+      for (std::size_t c = 0; c < 3 && values.size() >= 3; ++c) {
+        if (values[c].is_number()) factor[c] = std::clamp(values[c].get<float>(), 0.0F, 1.0F);
+      }
+    };
+    read(find_member(material, "pbrMetallicRoughness"), "baseColorFactor");
+    const Json* extensions = find_member(material, "extensions");
+    if (extensions == nullptr) continue;
+    read(find_member(*extensions, "KHR_materials_pbrSpecularGlossiness"), "diffuseFactor");
+  }
+  return factors;
 }
 
 }  // namespace wrapatlas

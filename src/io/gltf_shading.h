@@ -9,4 +9,7 @@ namespace wrapatlas {
 /// has none) of a model whose mesh is there. Errors: input.
 Status read_gltf_shading(const GltfContents& contents, Model& model);
 
+/// Per material, counted as Model::face_material does: the factor of its base (or diffuse) colour.
+std::vector<std::array<float, 3>> read_gltf_factors(const GltfContents& contents);
+
 }  // namespace wrapatlas

@@ -5,6 +5,7 @@
 #include "io/gltf_images.h"
 #include "io/gltf_primitives.h"
 #include "io/gltf_save.h"
+#include "io/gltf_shading.h"
 #include "io/gltf_textures.h"
 
 namespace wrapatlas {
@@ -33,6 +34,10 @@ class GltfSource : public Model::Source {
 
   [[nodiscard]] Result<ModelTextures> textures(bool base_colors_alone) const override {
     return read_gltf_textures(*contents_, base_colors_alone);
+  }
+
+  [[nodiscard]] std::vector<std::array<float, 3>> base_factors() const override {
+    return read_gltf_factors(*contents_);
   }
 
   Status save(const std::filesystem::path& path, const Mesh& mesh, const AtlasMesh& atlas,

@@ -68,12 +68,6 @@ Status write_new(FileFormat format, const std::filesystem::path& path, const Mes
                "write .obj, .ply, .gltf or .glb"};
 }
 
-/// Whether a file of one format can hold all that one of the other does.
-bool keeps_all(FileFormat a, FileFormat b) {
-  const auto is_gltf = [](FileFormat f) { return f == FileFormat::gltf || f == FileFormat::glb; };
-  return a == b || (is_gltf(a) && is_gltf(b));
-}
-
 /// The model in `format`, as save_model promises.
 Status write_model(const Model& model, const AtlasMesh& atlas, const std::filesystem::path& path,
                    FileFormat format) {
@@ -87,6 +81,11 @@ Status write_model(const Model& model, const AtlasMesh& atlas, const std::filesy
 }
 
 }  // namespace
+
+bool keeps_all(FileFormat output, FileFormat input) {
+  const auto is_gltf = [](FileFormat f) { return f == FileFormat::gltf || f == FileFormat::glb; };
+  return output == input || (is_gltf(output) && is_gltf(input));
+}
 
 Result<FileFormat> format_from_path(const std::filesystem::path& path) {
   std::string ending = path.extension().string();

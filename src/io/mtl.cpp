@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cmath>
 
 #include "io/number.h"
 #include "io/obj_lines.h"
@@ -147,6 +148,30 @@ std::vector<MtlMap> read_mtl_maps(std::string_view bytes) {
     }
   }
   return maps;
+}
+
+std::map<std::string_view, std::array<float, 3>> read_mtl_colors(std::string_view bytes) {
+  std::map<std::string_view, std::array<float, 3>> colors;
+  std::string_view material;
+  ObjLines lines(bytes);
+  for (ObjLine line; lines.next(line);) {
+    ObjWords words(line.text);
+    const std::string_view keyword = words.next();
+    if (keyword == "newmtl") material = Arguments(words).picture();
+    if (lower(keyword) != "kd") continue;
+    std::array<float, 3> color{};
+    bool complete = true;
+    for (float& value : color) {
+      double number = 0;
+      complete = complete && parse_coordinate(words.next(), number) && std::isfinite(number);
+      value = static_cast<float>(std::clamp(number, 0.0, 1.0));
+    }
+    if (complete) colors[material] = color;
+  }
+  for (const MtlMap& map : read_mtl_maps(bytes)) {
+    if (lower(map.keyword) == "map_kd") colors.erase(map.material);
+  }
+  return colors;
 }
 
 std::string replace_mtl_pictures(std::string_view bytes,

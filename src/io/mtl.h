@@ -1,6 +1,7 @@
 // Material libraries of OBJ files: which pictures they name, and others in their place.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <map>
 #include <set>
@@ -24,6 +25,9 @@ struct MtlMap {
 
 /// In the order of the file, without what stands before the first newmtl.
 std::vector<MtlMap> read_mtl_maps(std::string_view bytes);
+
+/// Kd of the materials that have no map_Kd: beside one it is often left at any value.
+std::map<std::string_view, std::array<float, 3>> read_mtl_colors(std::string_view bytes);
 
 /// The same file with other pictures' names: those of `pictures`, by the number of their map. Of
 /// the numbers in `whole` the picture is all that is read: options that move, scale or clamp go.

@@ -181,6 +181,21 @@ Result<ModelTextures> ObjSource::textures(bool base_colors_alone) const {
   return result;
 }
 
+std::vector<std::array<float, 3>> ObjSource::base_factors() const {
+  std::vector<std::array<float, 3>> factors(materials.size(), kNoFactor);
+  for (const fs::path& path : library_paths(*this)) {
+    const auto library = read_file(path);
+    if (!library) continue;
+    for (const auto& [material, color] : read_mtl_colors(*library)) {
+      const auto found = std::find(materials.begin(), materials.end(), material);
+      if (found != materials.end()) {
+        factors[static_cast<std::size_t>(found - materials.begin())] = color;
+      }
+    }
+  }
+  return factors;
+}
+
 Status ObjSource::save(const fs::path& path, const Mesh& mesh, const AtlasMesh& atlas,
                        std::span<const NewTexture> textures) const {
   const auto libraries = read_libraries(*this);

@@ -13,6 +13,7 @@ struct ObjSource final : Model::Source {
   Status save(const std::filesystem::path& path, const Mesh& mesh,
               const AtlasMesh& atlas) const override;
   [[nodiscard]] Result<ModelTextures> textures(bool base_colors_alone) const override;
+  [[nodiscard]] std::vector<std::array<float, 3>> base_factors() const override;
   /// Its material libraries and their pictures, as far as they can be read.
   [[nodiscard]] std::vector<std::filesystem::path> side_files() const;
   /// Beside the model go its materials as one library, and the pictures: "a.obj", "a.mtl",

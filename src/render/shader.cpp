@@ -40,7 +40,8 @@ std::array<float, 3> Shader::color(std::uint32_t triangle, const Weights& weight
 }
 
 std::array<float, 3> Shader::albedo(std::uint32_t triangle, Vec2 uv, double level_of_detail) const {
-  GroupColor from{options_.color, {}};
+  GroupColor from;
+  from.maps = options_.color;
   Wrap wrap = options_.wrap;
   if (!options_.group_colors.empty()) {
     from = options_.group_colors[options_.face_group[face_[triangle]]];
@@ -48,10 +49,12 @@ std::array<float, 3> Shader::albedo(std::uint32_t triangle, Vec2 uv, double leve
     uv = place_of(from.source, uv);
     level_of_detail += 0.5 * std::log2(area_scale(from.source));
   }
-  if (from.maps == nullptr) return {kGrey, kGrey, kGrey};
+  if (from.maps == nullptr) {
+    return from.factor == kNoFactor ? std::array<float, 3>{kGrey, kGrey, kGrey} : from.factor;
+  }
   const TextureValue value =
       as_color(sampled(*from.maps, uv, wrap, level_of_detail), from.maps->levels.front().channels);
-  return {value[0], value[1], value[2]};
+  return {value[0] * from.factor[0], value[1] * from.factor[1], value[2] * from.factor[2]};
 }
 
 Vec2 Shader::uv(std::uint32_t triangle, const Weights& weights) const {

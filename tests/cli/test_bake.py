@@ -1,8 +1,10 @@
 """wrapatlas bake: maps of a detailed model on the atlas of a simpler one."""
 
+import json
 import struct
 import unittest
 
+import gltf_maker
 import support
 from png_files import read_png
 
@@ -18,6 +20,22 @@ f 1/1 2/2 3/3 4/4
 """
 # Above it, and tilted: its normal is (-0.6, 0, 0.8).
 TILTED = "v -1 -1 -0.7\nv 2 -1 1.55\nv 2 2 1.55\nv -1 2 -0.7\nf 1 2 3 4\n"
+
+
+def one_colour(factor, textured=False, **node):
+    """The square, of a material with a factor."""
+    made = gltf_maker.GltfMaker()
+    corners = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)]
+    if textured:
+        made.textured_material()
+    else:
+        made.json["materials"] = [{"pbrMetallicRoughness": {}}]
+    made.json["materials"][0]["pbrMetallicRoughness"]["baseColorFactor"] = factor
+    made.node(mesh=made.mesh({
+        "attributes": {"POSITION": made.positions(corners),
+                       "TEXCOORD_0": made.accessor([(x, y) for x, y, _ in corners])},
+        "indices": made.indices([0, 1, 2, 0, 2, 3]), "material": 0}), **node)
+    return made.glb()
 
 
 class Bake(support.CommandTest):
@@ -86,6 +104,50 @@ class Bake(support.CommandTest):
         self.assertGreater(min(red, blue), 245)
         self.assertEqual(none, 0)
 
+    def test_colour_of_a_material_without_a_texture(self):
+        self.write("same.obj", "mtllib a.mtl\nusemtl a\n" + SQUARE)
+        self.write("a.mtl", "newmtl a\nKd 1 0.2158605 0\n")
+        for high in ("same.obj", "same.glb"):
+            self.write("same.glb", one_colour((1, 0.2158605, 0, 1)))
+            self.bake("--map", "color", "--resolution", 8, high=high)
+            self.assertEqual(tuple(read_png(self.path("n.png"))[4][3][:3]), (255, 128, 0), high)
+
+    def test_a_factor_multiplies_the_texture_of_a_gltf_alone(self):
+        """Kd beside a map_Kd is what its exporter left there."""
+        self.write("white.png", gltf_maker.PNG)
+        self.write("same.obj", "mtllib a.mtl\nusemtl a\n" + SQUARE)
+        self.write("a.mtl", "newmtl a\nKd 0.2158605 0 0\nmap_Kd white.png\n")
+        self.write("same.glb", one_colour((1, 0.2158605, 0, 1), textured=True))
+        for high, colour in (("same.obj", (255, 255, 255)), ("same.glb", (255, 128, 0))):
+            self.bake("--map", "color", "--resolution", 8, high=high)
+            self.assertEqual(tuple(read_png(self.path("n.png"))[4][3][:3]), colour, high)
+
+    def test_models_that_do_not_lie_over_each_other(self):
+        self.write("far.obj", TILTED.replace("v -1", "v 9").replace("v 2", "v 12"))
+        self.refuse(3, ("low.obj", "no ray", "far.obj", "--distance"), "bake", "low.obj", "far.obj",
+                    "-o", "n.png", "--distance", 0.5)
+        self.assertFalse(self.path("n.png").exists())
+
+    def test_faces_outside_an_atlas_that_does_not_wrap(self):
+        self.write("low.obj", SQUARE.replace("vt 1 ", "vt 1.5 "))
+        for wrap, count in (("none", 1), ("v", 1), ("u", 0), ("uv", 0)):
+            done = self.call("bake", "low.obj", "high.obj", "-o", "n.png", "--resolution", 8, "--wrap",
+                             wrap, "--json", "r.json")
+            self.assertEqual(done.returncode, 0)
+            self.assertEqual(json.loads(self.path("r.json").read_text())["faces_outside"], count)
+            self.assertEqual("1 face lies partly outside" in done.stderr, count == 1, wrap)
+
+    def test_a_gltf_packed_into_an_obj_lies_where_its_scene_has_it(self):
+        self.write("moved.glb", one_colour((1, 1, 1, 1), translation=[5, 0, 0]))
+        for command in ("pack", "unwrap"):
+            self.succeed(command, "moved.glb", "-o", "u.obj", "--resolution", 64, "--time", 0,
+                         "--quiet")
+            self.assertIn("v 6 1 0", self.path("u.obj").read_text())
+            report = self.bake("--resolution", 64, low="u.obj", high="moved.glb")
+            self.assertEqual(report["texels_nearest"], 0)
+        self.succeed("pack", "moved.glb", "-o", "u.obj", "--resolution", 64, "--time", 0, "--quiet")
+        self.succeed("check", "u.obj", "--reference", "moved.glb", "--resolution", 64, "--wrap", "uv")
+
     def test_mips_of_colours_are_means_of_light(self):
         """From black to white, evenly in light: its mean is half the light."""
         self.write("painted.obj", "v 0 0 0 0 0 0\nv 1 0 0 1 1 1\nv 1 1 0 1 1 1\nv 0 1 0 0 0 0\n"
@@ -140,10 +202,10 @@ class Bake(support.CommandTest):
     def test_says_what_was_left_out(self):
         self.write("low.obj", SQUARE + "f 1 2 3\n")
         done = self.call("bake", "low.obj", "high.obj", "-o", "n.png", "--resolution", 8,
-                         "--distance", 0.01)
+                         "--distance", 0.3)  # x of a third and less are nearer
         self.assertEqual(done.returncode, 0)
         self.assertIn("1 face has no UVs", done.stderr)
-        self.assertIn("no ray met high.obj within 0.01", done.stderr)
+        self.assertIn("warning: at 48 texels no ray met high.obj within 0.3", done.stderr)
         self.assertIn("-> n.png", done.stderr)
 
     def test_refuses(self):

@@ -422,6 +422,13 @@ class Outputs(support.CommandTest):
         self.assertIn("grid 64 x 64", verbose.stderr)
         self.assertRegex(verbose.stderr, r"[\d.]+ % in use if the charts grew in place until two touch")
 
+    def test_what_was_meant(self):
+        self.refuse(2, ("did you mean --padding? else see wrapatlas pack --help",), "pack", "a.obj",
+                    "-o", "b.obj", "--wrap", "uv", "--paddings=3")
+        self.refuse(2, ("pakc", "did you mean pack?"), "pakc", "a.obj")
+        for words in (("pack", "a.obj", "-o", "b.obj", "--frobnicate"), ("frobnicate", "a.obj")):
+            self.assertNotIn("mean", self.refuse(2, ("frobnicate",), *words).stderr)
+
     def test_help(self):
         for command in ((), ("pack",), ("check",), ("info",)):
             result = self.succeed(*command, "--help")

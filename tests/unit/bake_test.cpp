@@ -169,6 +169,8 @@ TEST(Bake, LooksBothWaysAndForTheNearestPoint) {
     const auto far = bake(low, source_of(high), maps, options);
     ASSERT_TRUE(far);
     EXPECT_EQ(far->texels_nearest, 64U);
+    EXPECT_TRUE(near->met);
+    EXPECT_FALSE(far->met);
     for (std::size_t i = 0; i < near->maps[0].values.size(); ++i) {
       EXPECT_NEAR(near->maps[0].values[i], far->maps[0].values[i], 1e-6);
     }

@@ -49,8 +49,9 @@ struct Boards {
   Occupancy fast;
   SlowBoard slow;
 
-  /// Some runs taken, in two goes.
+  /// Some runs taken, in two goes, or in one go each.
   Boards(Random& random, const Domain& domain) : fast(domain), slow(domain) {
+    const bool each = random.below(2) == 0;
     for (int go = 0; go < 2; ++go) {
       const int runs = random.below(domain.height);
       for (int i = 0; i < runs; ++i) {
@@ -59,6 +60,7 @@ struct Boards {
         const int end = begin + 1 + random.below(std::min(longest, 12));
         fast.take(y, begin, end);
         for (int x = begin; x < end; ++x) slow.take(x, y);
+        if (each) fast.update();
       }
       fast.update();
     }
@@ -66,14 +68,14 @@ struct Boards {
 };
 
 Domain random_domain(Random& random) {
-  constexpr int kWidths[] = {1, 7, 63, 64, 65, 128, 200, 600};
-  return {random.below(2) == 0 ? kWidths[random.below(8)] : 1 + random.below(150),
+  constexpr int kWidths[] = {1, 7, 63, 64, 65, 128, 200, 384, 600, 1024};
+  return {random.below(2) == 0 ? kWidths[random.below(10)] : 1 + random.below(150),
           1 + random.below(40), random.below(2) == 0, random.below(2) == 0};
 }
 
 TEST(Occupancy, TablesSayWhetherAnyCellIsTaken) {
   Random random(11);
-  for (int trial = 0; trial < 100; ++trial) {
+  for (int trial = 0; trial < 200; ++trial) {
     const Domain domain = random_domain(random);
     const Boards boards(random, domain);
     const int y = random.below(domain.height);
@@ -94,6 +96,18 @@ TEST(Occupancy, TablesSayWhetherAnyCellIsTaken) {
     }
     for (int level = 0; level < boards.fast.square_levels(); ++level) {
       expect_table(boards.fast.square_table(level), 1 << level, 1 << level);
+    }
+    for (int level = 1; level < boards.fast.square_levels(); ++level) {
+      const std::uint64_t* row = boards.fast.row(boards.fast.square_table(level), y);
+      const int words = static_cast<int>(boards.fast.stride()) - 1;
+      for (int block = 0; block < kWordBits - 1; ++block) {
+        bool expected = false;
+        for (int k = block * Occupancy::kBlockWords; k < words; ++k) {
+          expected = expected || (k / Occupancy::kBlockWords == block && ~row[k] != 0);
+        }
+        ASSERT_EQ((boards.fast.open_blocks(level, y) >> block & 1U) != 0, expected)
+            << domain.width << " wide, block " << block;
+      }
     }
   }
 }

@@ -205,7 +205,7 @@ TEST(GltfRead, TexturesAndTransformsAreRemarked) {
   info["extensions"]["KHR_texture_transform"] = {{"texCoord", 0}};
   model = load(builder.glb());
   ASSERT_TRUE(model);
-  EXPECT_TRUE(remarks_mention(*model, "textures keep the old layout"));
+  EXPECT_TRUE(remarks_mention(*model, "its textures are made for its UVs"));
   EXPECT_TRUE(remarks_mention(*model, "KHR_texture_transform"));
 }
 

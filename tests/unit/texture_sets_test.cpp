@@ -104,6 +104,18 @@ TEST(ScaleToTexels, EachChartHasTheAreaItHadInTexels) {
   EXPECT_NEAR(side(7), std::sqrt(0.5 / 4.125), 1e-12);
 }
 
+TEST(ShareThinned, IsOfTheOldArea) {
+  Mesh texels = four_triangles();
+  texels.corner_texcoord = {0, 1, 2, 3, 4, 5, 6, 7, 8, 0, 1, 2};
+  Mesh mesh = texels;
+  EXPECT_EQ(share_thinned(mesh, 1, texels), 0);
+  EXPECT_EQ(share_thinned(mesh, 0.91, texels), 0);
+  EXPECT_EQ(share_thinned(mesh, 0.89, texels), 1);
+  for (std::size_t i = 3; i < 6; ++i) mesh.texcoords[i] = 0.5 * mesh.texcoords[i];
+  EXPECT_DOUBLE_EQ(share_thinned(mesh, 1.5, texels), 0.25);  // one of four alike
+  EXPECT_EQ(share_thinned(mesh, 2, texels), 0);
+}
+
 TEST(PlacePart, OnlyItsFacesChange) {
   const Mesh mesh = four_triangles();
   AtlasMesh whole = keep_texcoords(mesh);

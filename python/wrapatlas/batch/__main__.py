@@ -37,6 +37,10 @@ def main(given: Optional[List[str]] = None) -> int:
         print(f"wrapatlas.batch: error: {error}", file=sys.stderr)
         return error.status
     if not told.quiet:
+        for name, reason in summary.failures:
+            print(f"{name}: failed: {reason}", file=sys.stderr)
+        if summary.failed > len(summary.failures):
+            print(f"... and {summary.failed - len(summary.failures)} more, in {summary.table}", file=sys.stderr)
         print(f"{summary.done} done ({summary.kept} of them before), {summary.failed} failed, {summary.not_reached} "
               f"not reached, {summary.seconds:.1f} s -> {summary.page}", file=sys.stderr)
     return 130 if summary.interrupted else 1 if summary.failed else 0

@@ -20,21 +20,26 @@ def find() -> str:
         if not found:
             raise BatchError(f"WRAPATLAS={named}: there is no such program")
         return os.path.abspath(found)
-    try:
-        own = str(importlib.import_module("wrapatlas").command())
-        if os.access(own, os.X_OK):
-            return own
-    except (ImportError, AttributeError):
-        pass  # the batch alone, without the compiled package
+    own = str(importlib.import_module("wrapatlas").command())
+    if os.access(own, os.X_OK):
+        return own
     found = shutil.which("wrapatlas")
     if not found:
         raise BatchError("there is no program wrapatlas: install it, or say where it is in WRAPATLAS")
     return os.path.abspath(found)
 
 
-@functools.lru_cache(maxsize=8)
 def identity(path: str) -> str:
     """Version and content of the executable: two builds of one version may differ in results."""
+    try:
+        is_now = os.stat(path)
+    except OSError as error:
+        raise BatchError(f"{path}: cannot be run ({error})") from error
+    return _identity(path, is_now.st_mtime_ns, is_now.st_size)
+
+
+@functools.lru_cache(maxsize=8)
+def _identity(path: str, _modified: int, _size: int) -> str:
     try:
         version = subprocess.run([path, "--version"], capture_output=True, text=True, check=True)
         with open(path, "rb") as file:

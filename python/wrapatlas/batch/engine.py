@@ -13,12 +13,12 @@ import threading
 import time
 from concurrent.futures import CancelledError
 from dataclasses import asdict, dataclass
-from typing import Any, Dict, Iterator, List, Optional, Sequence
+from typing import Any, Dict, Iterator, List, Optional, Sequence, Tuple
 
 from . import command, manifest
 from . import recipe as recipes
 from .errors import BatchError, UsageError
-from .files import file_system, is_local, local_path, parent
+from .files import file_system, is_local, join, local_path, parent
 from .manifest import Asset
 from .page import write_page
 from .progress import Progress
@@ -28,13 +28,14 @@ from .task import Order, Outcome, unchanged, work
 
 WINDOW = 3  # orders given to Dask for each thread of its workers; the rest waits in the manifest
 COMMIT_EVERY = 1.0  # seconds
+FAILURES_TOLD = 3  # in the summary; all are in the table
 USAGE_FAILURES = 10  # if the first so many say so, it is the recipe
 
 
 @dataclass
 class Summary:
     """What came of a batch. `kept`: done by an earlier run, and still as it was (they count as
-    `done` too)."""
+    `done` too). `failures`: name and reason of the first few that failed."""
 
     total: int
     done: int
@@ -45,6 +46,7 @@ class Summary:
     seconds: float
     table: str
     page: str
+    failures: List[Tuple[str, str]]
 
 
 def run(assets: str, out: str, recipe: str = "unwrap", options: Sequence[str] = (), *,
@@ -90,8 +92,8 @@ def run(assets: str, out: str, recipe: str = "unwrap", options: Sequence[str] = 
         shutil.rmtree(os.path.join(folder, ".batch", "tmp"), ignore_errors=True)  # of a run that was killed
         store = Store(os.path.join(folder, ".batch", "state.sqlite"))
         try:
-            total = store.take_manifest(manifest.read(assets))
-            batch = Batch(store, Progress(total, progress), plan, identity, out,
+            total = store.take_manifest(manifest.read(assets, join(out, "assets")))
+            batch = Batch(store, Progress(total, progress, store.counts().get("failed", 0)), plan, identity, out,
                           parent(assets), time_limit, memory_limit, retries, keep_failed)
             with interruptible() as stop:
                 with connected(client, scheduler, workers) as connection:
@@ -103,9 +105,10 @@ def run(assets: str, out: str, recipe: str = "unwrap", options: Sequence[str] = 
                         ("interrupted", "yes" if stop.is_set() else "no")]
                 paths = [*write_tables(store, folder), write_page(store, folder, out, told)]
                 counts = store.counts()
+                failures = [(row["name"], row["reason"]) for row in store.select("failed", FAILURES_TOLD)]
                 publish(paths, out)
             return Summary(total, counts.get("done", 0), batch.progress.kept, counts.get("failed", 0),
-                           counts.get("not reached", 0), stop.is_set(), time.time() - begin, paths[0], paths[-1])
+                           counts.get("not reached", 0), stop.is_set(), time.time() - begin, paths[0], paths[-1], failures)
         finally:
             store.close()
     except sqlite3.Error as error:

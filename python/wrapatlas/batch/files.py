@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import importlib
 import json
 import mmap
@@ -130,7 +131,7 @@ class Input:
         self._home = os.path.join(scratch, *(["up"] * 8))
         self.path = self._take(os.path.basename(local_path(url)) if self._local else url.rsplit("/", 1)[1], url)
         if not os.path.exists(self.path):
-            raise FileNotFoundError(f"{url}: no such file")
+            raise FileNotFoundError(errno.ENOENT, "no such file", url)
         self._follow(self.path, "")
 
     def _follow(self, path: str, folder: str) -> None:

@@ -28,8 +28,9 @@ class Asset:
     error: str = ""
 
 
-def read(where: str) -> Iterator[Asset]:
-    """The assets of a manifest, one by one: there may be more than memory holds.
+def read(where: str, results: str = "") -> Iterator[Asset]:
+    """The assets of a manifest, one by one: there may be more than memory holds. A folder's own
+    `results`, a folder in it, are none of them.
 
     Raises UsageError for a file that is no manifest."""
     ending = os.path.splitext(where)[1].lower()
@@ -37,19 +38,22 @@ def read(where: str) -> Iterator[Asset]:
         return rows(where, csv_rows(where))
     if ending in (".jsonl", ".ndjson"):
         return rows(where, jsonl_rows(where))
-    return models(where)
+    return models(where, results)
 
 
-def models(folder: str) -> Iterator[Asset]:
+def models(folder: str, results: str) -> Iterator[Asset]:
+    """Those in a folder and below, but for hidden ones and what is in `results`."""
     line = 0
     if is_local(folder):
         top = local_path(folder)
         if not os.path.isdir(top):
             raise UsageError(f"{folder}: neither a folder, nor a .csv or .jsonl file")
+        apart = os.path.realpath(local_path(results)) if results and is_local(results) else ""
         for root, folders, names in os.walk(top):
-            folders[:] = sorted(name for name in folders if not name.startswith("."))
+            folders[:] = sorted(name for name in folders if not name.startswith(".")
+                                and os.path.realpath(os.path.join(root, name)) != apart)
             for name in sorted(names):
-                if name.lower().endswith(MODELS):
+                if name.lower().endswith(MODELS) and not name.startswith("."):
                     line += 1
                     path = os.path.join(root, name)
                     yield asset(line, os.path.relpath(path, top), path, {})

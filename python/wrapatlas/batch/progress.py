@@ -7,14 +7,18 @@ import time
 
 
 class Progress:
-    def __init__(self, total: int, shown: bool) -> None:
+    """`settled`: how many of all need not be tried, as their lines in the manifest are no good."""
+
+    def __init__(self, total: int, shown: bool, settled: int = 0) -> None:
         self._total, self._shown = total, shown
         self._begin = self._said = time.monotonic()
         self._pause = 0.5 if sys.stderr.isatty() else 15.0
         self.done = self.kept = self.failed = 0
+        self.settled = settled
 
     def add(self, state: str, kept: bool) -> None:
-        self.kept += kept
+        self.kept += state == "done" and kept
+        self.settled += 1
         self.done += state == "done" and not kept
         self.failed += state == "failed" and not kept
         if time.monotonic() - self._said > self._pause:
@@ -26,8 +30,8 @@ class Progress:
             return
         worked = self.done + self.failed
         rate = worked / max(self._said - self._begin, 1e-9)
-        left = self._total - worked - self.kept
-        line = (f"{worked + self.kept}/{self._total}: {self.done} done, {self.failed} failed, "
+        left = self._total - self.settled
+        line = (f"{self.settled}/{self._total}: {self.done} done, {self.failed} failed, "
                 f"{self.kept} as they were, {rate:.1f}/s")
         if left and rate:
             line += f", {in_words(left / rate)} left"

@@ -8,7 +8,7 @@ import os
 import re
 import shlex
 from dataclasses import dataclass, field
-from typing import Any, Dict, List, Mapping, Sequence
+from typing import Any, Dict, List, Mapping, Optional, Sequence
 
 from .errors import UsageError
 
@@ -54,7 +54,7 @@ def load(name: str, options: Sequence[str] = ()) -> Recipe:
     if name in BUILT_IN:
         recipe = from_dict(name, BUILT_IN[name])
         step = recipe.steps[0]
-        if name in ("unwrap", "pack") and "--image" not in options:
+        if name in ("unwrap", "pack") and given_value(options, "--image") is None:
             step += PICTURE.split()
         step += options
         return recipe
@@ -88,17 +88,33 @@ def from_dict(where: str, given: Any) -> Recipe:
         raise UsageError(f"{where}: unknown: {', '.join(sorted(unknown))}")
     steps = []
     for line in given["steps"]:
-        words = shlex.split(line) if isinstance(line, str) else [str(word) for word in line]
+        if not isinstance(line, (str, list)):
+            raise UsageError(f"{where}: {line!r} is no command line")
+        try:
+            words = shlex.split(line) if isinstance(line, str) else [str(word) for word in line]
+        except ValueError as error:
+            raise UsageError(f"{where}: {line!r}: {error}") from error
         if words[:1] == ["wrapatlas"]:
             words = words[1:]
         if not words or words[0] not in COMMANDS:
             raise UsageError(f"{where}: {line!r} does not begin with one of {', '.join(COMMANDS)}")
         steps.append(words)
-    names = [*given.get("files", []), *given.get("drop", [])]
-    if not all(isinstance(name, str) for name in names):
+    files, drop, accept = given.get("files", []), given.get("drop", []), given.get("accept", [0])
+    if not all(isinstance(names, list) and all(isinstance(name, str) for name in names) for names in (files, drop)):
         raise UsageError(f'{where}: "files" and "drop" are lists of names')
-    accept = given.get("accept", [0])
-    return Recipe(steps, list(given.get("files", [])), list(given.get("drop", [])), list(accept))
+    if not isinstance(accept, list) or not all(isinstance(status, int) for status in accept):
+        raise UsageError(f'{where}: "accept" is a list of exit statuses, numbers')
+    return Recipe(steps, files, drop, accept)
+
+
+def given_value(line: Sequence[str], option: str) -> Optional[str]:
+    """What a command line gives for an option, as `--option value` or `--option=value`; None: nothing."""
+    for number, word in enumerate(line):
+        if word == option:
+            return line[number + 1] if number + 1 < len(line) else ""
+        if word.startswith(option + "="):
+            return word[len(option) + 1:]
+    return None
 
 
 def command_lines(recipe: Recipe, values: Mapping[str, str]) -> List[List[str]]:
@@ -115,9 +131,9 @@ def command_lines(recipe: Recipe, values: Mapping[str, str]) -> List[List[str]]:
         line = [PLACEHOLDER.sub(lambda found: own[found.group(1)], word) for word in step]
         name = line[0]
         seen.append(name)
-        if name not in WITHOUT_THREADS and "--threads" not in line:
+        if name not in WITHOUT_THREADS and given_value(line, "--threads") is None:
             line += ["--threads", "1"]
-        if name not in WITHOUT_JSON and "--json" not in line:
+        if name not in WITHOUT_JSON and given_value(line, "--json") is None:
             again = f"-{seen.count(name)}" if seen.count(name) > 1 else ""
             line += ["--json", f"{name}{again}.json"]
         lines.append(line)

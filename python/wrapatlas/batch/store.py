@@ -73,7 +73,7 @@ class Store:
             run("UPDATE assets SET number = ?, line = ?, input = ?, fields = ?, present = 1 WHERE name = ?",
                 (number, asset.line, asset.input, json.dumps(asset.fields), asset.name))
             if error:
-                self.put(Outcome(asset.name, "failed", error, status=0, attempts=0))
+                self.put(Outcome(asset.name, "failed", error, attempts=0))
         self._base.commit()
         return number
 

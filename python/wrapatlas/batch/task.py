@@ -17,7 +17,7 @@ from .errors import BatchError
 from .files import Input, complete, join, mark
 from .manifest import Asset
 from .process import Ended, run_limited
-from .recipe import Recipe, command_lines
+from .recipe import Recipe, command_lines, given_value
 
 STATUS = {1: "a check failed", 2: "usage", 3: "unusable input or output", 4: "no packing found",
           130: "interrupted"}
@@ -48,14 +48,14 @@ class Order:
 @dataclass
 class Outcome:
     """`state` is done, or failed for the `reason`; `marks` those of the files that were read;
-    `seconds` of all its commands, `status` the last one's."""
+    `seconds` of all its commands, `status` the last one's, None if none ended."""
 
     name: str
     state: str
     reason: str = ""
     key: str = ""
     kept: bool = False
-    status: int = 0
+    status: Optional[int] = None
     attempts: int = 1
     seconds: float = 0.0
     peak_mb: float = 0.0
@@ -68,8 +68,9 @@ class Outcome:
 
 
 def unchanged(marks: Dict[str, Optional[str]]) -> bool:
+    """Are files as they were? Of an asset that had none, nobody knows."""
     try:
-        return all(mark(url) == was for url, was in marks.items())
+        return bool(marks) and all(mark(url) == was for url, was in marks.items())
     except OSError:
         return False
 
@@ -196,13 +197,14 @@ def why(order: Order, ended: Ended, step: str, log: str, begin: int) -> str:
 
 def read_measures(folder: str, line: List[str], measures: Dict[str, float]) -> None:
     """From a step's report what the table shows."""
-    if "--json" not in line:
+    name = given_value(line, "--json")
+    if not name:
         return
     report: Any = None
     try:
-        with open(os.path.join(folder, line[line.index("--json") + 1]), encoding="utf-8") as file:
+        with open(os.path.join(folder, name), encoding="utf-8") as file:
             report = json.load(file)
-    except (OSError, ValueError, IndexError):
+    except (OSError, ValueError):
         return
     for name in MEASURES:
         if isinstance(report, dict) and isinstance(report.get(name), (int, float)):

@@ -59,7 +59,8 @@ Status write_json(const std::string& path, const Json& object);
 
 double seconds_now();
 
-/// What goes into a file of another format has no nodes (LoadOptions::in_scene).
+/// Whether the output's format cannot hold the input's nodes, which then have to be applied
+/// (LoadOptions::in_scene).
 bool leaves_nodes_behind(const std::string& input, const std::string& output);
 double peak_memory_mb();
 

@@ -19,13 +19,14 @@ namespace {
 std::string meant_option(const CLI::App& command, int argc, char** argv) {
   std::vector<std::string> names;
   for (const CLI::Option* option : command.get_options()) {
-    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+    if (option->get_group().empty()) continue;  // not in the help
+    for (const std::string& name : option->get_lnames()) names.push_back(name);
   }
   for (int i = 2; i < argc; ++i) {
     const std::string given(argv[i], std::strcspn(argv[i], "="));
     if (!given.starts_with("--") || command.get_option_no_throw(given) != nullptr) continue;
-    const std::string nearest = wrapatlas::cli::nearest_name(given, names);
-    return nearest.empty() ? "" : fmt::format("did you mean {}? else ", nearest);
+    const std::string nearest = wrapatlas::cli::nearest_name(given.substr(2), names);
+    return nearest.empty() ? "" : fmt::format("did you mean --{}? else ", nearest);
   }
   return "";
 }

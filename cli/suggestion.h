@@ -8,7 +8,7 @@
 namespace wrapatlas::cli {
 
 /// The name that takes the fewest letters put in, left out or changed: at most a third of those
-/// given, or two; else empty. Of equal ones the first.
+/// given, or two if that is no more than half; else empty. Of equal ones the first.
 std::string nearest_name(std::string_view given, std::span<const std::string> names);
 
 }  // namespace wrapatlas::cli

@@ -37,8 +37,8 @@ struct RenderOptions {
   std::span<const Vec3> corner_normals;  ///< the mesh's own, as in BakeOptions
   double hard_angle = -1;                ///< radians: where smooth normals end, see smooth_normals
   const MipMaps* color = nullptr;        ///< linear light; without it the model is light grey
-  /// In place of `color`, if there are any: colours per group of faces (without maps: light grey),
-  /// and per face its group.
+  /// In place of `color`, if there are any: colours per group of faces (without maps: the factor,
+  /// or light grey), and per face its group.
   std::span<const GroupColor> group_colors;
   std::span<const std::uint32_t> face_group;
   const MipMaps* normals = nullptr;

@@ -66,19 +66,6 @@ std::string shape_text(const AnyArray& array) {
   return text + (array.ndim() == 1 ? ",)" : ")");
 }
 
-std::vector<double> read_floats(const AnyArray& array, const std::string& name,
-                                std::size_t columns) {
-  if (array.ndim() != 2 || array.shape(1) != columns) {
-    raise(usage(name, fmt::format("its shape is {}", shape_text(array)),
-                fmt::format("pass (N, {})", columns)));
-  }
-  std::vector<double> values(array.shape(0) * columns);
-  if (!for_each_float(array, [&](std::size_t i, auto v) { values[i] = double(v); })) {
-    refuse_type(name);
-  }
-  return values;
-}
-
 namespace {
 
 template <typename Vector, std::size_t Columns>

@@ -21,9 +21,7 @@ using AnyArray = nb::ndarray<nb::ro, nb::device::cpu>;
 template <typename T, int Dimensions>
 using View = nb::ndarray<nb::numpy, const T, nb::ndim<Dimensions>>;
 
-/// Rows of `columns` numbers: 32- or 64-bit floats. `name` is for errors.
-std::vector<double> read_floats(const AnyArray& array, const std::string& name,
-                                std::size_t columns);
+/// Rows of numbers: 32- or 64-bit floats. `name` is for errors.
 std::vector<Vec2> read_vec2(const AnyArray& array, const std::string& name);
 std::vector<Vec3> read_vec3(const AnyArray& array, const std::string& name);
 

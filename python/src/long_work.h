@@ -26,7 +26,6 @@ class LongWork {
 
   /// For the work, from any thread. `stage` is a literal. false: stop.
   bool tell(const char* stage, double fraction, double detail = 0);
-  [[nodiscard]] bool stopped() const { return stopped_; }
 
   /// The work's value, or raises: its error, or what made it stop.
   template <typename T>

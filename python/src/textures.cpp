@@ -29,11 +29,6 @@ constexpr Named<TextureRole> kRoles[] = {
 constexpr Named<Repeat> kRepeats[] = {
     {"repeat", Repeat::repeat}, {"mirror", Repeat::mirror}, {"clamp", Repeat::clamp}};
 
-struct Baked {
-  std::vector<std::string> kinds;
-  BakeResult result;
-};
-
 std::vector<BakedMap> maps_of(const std::vector<std::string>& kinds) {
   std::vector<BakedMap> maps;
   for (const std::string& kind : kinds) {
@@ -50,10 +45,10 @@ std::vector<BakedMap> maps_of(const std::vector<std::string>& kinds) {
   return maps;
 }
 
-std::shared_ptr<Baked> bake_maps(const PyMesh& low, const PyMesh& high,
-                                 std::vector<std::string> kinds,
-                                 const std::optional<AnyArray>& color, BakeOptions options,
-                                 nb::object progress) {
+std::shared_ptr<BakeResult> bake_maps(const PyMesh& low, const PyMesh& high,
+                                      const std::vector<std::string>& kinds,
+                                      const std::optional<AnyArray>& color, BakeOptions options,
+                                      nb::object progress) {
   const std::vector<BakedMap> maps = maps_of(kinds);
   for (const PyMesh* mesh : {&low, &high}) {
     if (!mesh->has_space) raise(usage("bake", "a mesh has no positions", "pass them"));
@@ -79,7 +74,11 @@ std::shared_ptr<Baked> bake_maps(const PyMesh& low, const PyMesh& high,
     work.tell("bake", 1);
     return baked;
   });
-  return std::make_shared<Baked>(Baked{std::move(kinds), std::move(result)});
+  if (!result.met) {
+    raise(bad_input("high", fmt::format("no ray met it within {:.4g}", result.distance),
+                    "lay both meshes over each other, facing alike, or give a larger distance="));
+  }
+  return std::make_shared<BakeResult>(std::move(result));
 }
 
 void bind_bake(nb::module_& module) {
@@ -108,32 +107,30 @@ void bind_bake(nb::module_& module) {
   };
   angle("hard_edges", &BakeOptions::hard_angle);
   angle("high_hard_edges", &BakeOptions::high_hard_angle);
-  nb::class_<Baked>(module, "BakedMaps")
-      .def_ro("kinds", &Baked::kinds)
+  nb::class_<BakeResult>(module, "BakedMaps")
       .def(
           "take",
-          [](Baked& b, std::size_t i) {
-            if (i >= b.result.maps.size()) throw nb::index_error("no such map");
-            return own(std::move(b.result.maps[i]));
+          [](BakeResult& b, std::size_t i) {
+            if (i >= b.maps.size()) throw nb::index_error("no such map");
+            return own(std::move(b.maps[i]));
           },
           nb::arg("index"), "The map, which is not here any more then: (height, width, channels)")
       .def(
           "take_inside",
-          [](Baked& b, std::size_t width, std::size_t height) {
-            return own(std::move(b.result.inside), {height, width});
+          [](BakeResult& b, std::size_t width, std::size_t height) {
+            return own(std::move(b.inside), {height, width});
           },
           nb::arg("width"), nb::arg("height"))
-      .def_prop_ro("texels_used", [](const Baked& b) { return b.result.texels_used; })
-      .def_prop_ro("texels_nearest", [](const Baked& b) { return b.result.texels_nearest; })
-      .def_prop_ro("faces_without_uv", [](const Baked& b) { return b.result.faces_without_uv; })
-      .def_prop_ro("faces_outside", [](const Baked& b) { return b.result.faces_outside; })
-      .def_prop_ro("distance", [](const Baked& b) { return b.result.distance; })
+      .def_prop_ro("texels_nearest", [](const BakeResult& b) { return b.texels_nearest; })
+      .def_prop_ro("faces_without_uv", [](const BakeResult& b) { return b.faces_without_uv; })
+      .def_prop_ro("faces_outside", [](const BakeResult& b) { return b.faces_outside; })
+      .def_prop_ro("distance", [](const BakeResult& b) { return b.distance; })
       .def_prop_ro("position_origin",
-                   [](const Baked& b) {
-                     const Vec3 p = b.result.low_corner;
+                   [](const BakeResult& b) {
+                     const Vec3 p = b.low_corner;
                      return std::tuple(p.x, p.y, p.z);
                    })
-      .def_prop_ro("position_extent", [](const Baked& b) { return b.result.extent; });
+      .def_prop_ro("position_extent", [](const BakeResult& b) { return b.extent; });
   module.def("bake", &bake_maps, nb::arg("low"), nb::arg("high"), nb::arg("kinds"),
              nb::arg("color").none(), nb::arg("settings"), nb::arg("progress").none());
 }

@@ -211,7 +211,10 @@ class Failures(WithDask):
         lock = store.Lock(str(self.out / ".batch/lock"))
         with self.assertRaisesRegex(batch.BatchError, f"another batch works here .process {os.getpid()}"):
             self.run_batch()
+        with self.assertRaisesRegex(batch.BatchError, "another batch works here"):
+            self.run_batch(state=str(self.folder / "state"))  # the results are the same
         lock.free()
+        self.run_batch(state=str(self.folder / "state"))
         self.assertEqual(self.run_batch().done, 1)
 
     def test_output_that_is_no_folder(self):

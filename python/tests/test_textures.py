@@ -113,6 +113,7 @@ class Render(unittest.TestCase):
         one = wrapatlas.render(mesh, size=32, azimuth=30)
         self.assertEqual((one.shape, one.dtype), ((32, 32, 3), np.uint8))
         self.assertTrue(one._repr_png_().startswith(b"\x89PNG"))
+        self.assertIsNone(one.astype(int)._repr_png_())
         with self.assertRaisesRegex(ValueError, "no UVs"):
             wrapatlas.render(mesh, shapes.checker())
 

@@ -42,7 +42,8 @@ def check(
     findings: how many violations to describe.
 
     Returns a CheckReport, which is true if all holds. Raises InputError (a ValueError) if there is
-    no atlas, or if the meshes cannot be compared. Ctrl-C is heeded when it is done.
+    no atlas, or if the meshes cannot be compared, UsageError (another) for options, OSError for a
+    path that cannot be read. Ctrl-C is heeded when it is done.
     """
     settings = _core.CheckSettings()
     known = own(atlas, "none")

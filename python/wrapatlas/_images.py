@@ -10,6 +10,7 @@ import numpy.typing as npt
 
 from . import _core
 from ._arrays import pixels
+from ._errors import UsageError
 
 __all__ = ["Picture", "load_image", "save_image"]
 
@@ -22,8 +23,12 @@ class Picture(np.ndarray[Any, Any]):
     """
 
     def _repr_png_(self) -> bytes | None:
-        is_picture = self.ndim in (2, 3) and 0 not in self.shape
-        return _core.encode_png(pixels("image", self), 8) if is_picture else None
+        if self.ndim not in (2, 3) or 0 in self.shape:
+            return None
+        try:
+            return _core.encode_png(pixels("image", self), 8)
+        except UsageError:  # of a type or a number of channels that no picture has
+            return None
 
     def save(self, path: str | os.PathLike[str], bits: int = 8) -> None:
         """Writes it as PNG, with 8 or 16 `bits` a value. OSError if that cannot be done."""

@@ -183,8 +183,10 @@ def pack(
     on_interrupt: "raise": Ctrl-C raises KeyboardInterrupt; "best": it ends the search with the best
         packing so far, whose `interrupted` is True, if there is one.
 
-    Raises UsageError and InputError (both ValueErrors), NoPacking if nothing fits. All three are a
-    wrapatlas.Error. Takes as long as `time`, and some for the check.
+    Raises UsageError and InputError (both ValueErrors), NoPacking if nothing fits, CheckFailed if a
+    promise is broken (a bug of ours): all a wrapatlas.Error. OSError for a path that cannot be read,
+    TypeError for an unknown option, KeyboardInterrupt (see on_interrupt). Takes as long as `time`,
+    and some for the check.
     """
     refuse_unknown("pack", options, known_options("pack"))
     if faces is None:

@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, Any, Callable, Iterator, Optional, Union
+from typing import Any, Callable, Iterator, Optional, Union
 
-if TYPE_CHECKING:
-    CoreProgress = Optional[Callable[[str, float, float], object]]
-    ProgressLike = Union[bool, None, Callable[[str, float, float], object]]
+CoreProgress = Optional[Callable[[str, float, float], object]]
+ProgressLike = Union[bool, None, Callable[[str, float, float], object]]
 
 __all__ = ["ProgressLike"]
 

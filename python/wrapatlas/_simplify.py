@@ -26,7 +26,8 @@ def simplify(
     keep_seams: keep the UVs, and their seams. Else the result has no UVs.
     progress: see pack; the stage is "simplify", its detail the triangles that are left.
 
-    Raises UsageError and InputError (both ValueErrors), KeyboardInterrupt.
+    Raises UsageError and InputError (both ValueErrors), OSError for a path that cannot be read,
+    KeyboardInterrupt, and wrapatlas.Error if `progress` stops it.
     """
     source = as_mesh(mesh)
     target = _target(faces, len(source.corner_position) - 2 * source.face_count)
@@ -49,7 +50,7 @@ def _target(faces: int | str, triangles: int) -> int:
         return max(1, round(percent / 100 * triangles))
     try:
         count = int(faces)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         raise wrong from None
     if count != faces or not 1 <= count <= 4000000000:
         raise wrong

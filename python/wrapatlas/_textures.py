@@ -96,7 +96,8 @@ def bake(
     occlusion_rays, occlusion_distance: rays of each sample, and how far they go; 0: no end.
     progress: see pack; the stage is "bake".
 
-    Raises UsageError and InputError (both ValueErrors), KeyboardInterrupt.
+    Raises UsageError and InputError (both ValueErrors), OSError for a path that cannot be read,
+    KeyboardInterrupt, and wrapatlas.Error if `progress` stops it.
     """
     settings = _core.BakeSettings()
     known = own(low, "uv")
@@ -168,8 +169,10 @@ def transfer(
     bleed: as in bake.
     progress: see pack; the stage is "transfer".
 
-    Returns (height, width, channels) float32, 0 to 1. Raises UsageError and InputError (both
-    ValueErrors), KeyboardInterrupt.
+    Returns (height, width, channels) float32, 0 to 1.
+
+    Raises UsageError and InputError (both ValueErrors), OSError for a path that cannot be read,
+    KeyboardInterrupt, and wrapatlas.Error if `progress` stops it.
     """
     settings = _core.TransferSettings()
     known = own(after, "uv")
@@ -224,7 +227,7 @@ def render(
     framed_as: a mesh that the views are set up for instead.
 
     Returns (size, views * size, 3) uint8; a notebook shows it. Raises UsageError and InputError (both
-    ValueErrors). Ctrl-C is heeded when it is done.
+    ValueErrors), OSError for a path that cannot be read. Ctrl-C is heeded when it is done.
     """
     settings = _core.RenderSettings()
     given = {"size": size, "views": views, "shade": shade, "space": space, "filter": filter}

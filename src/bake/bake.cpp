@@ -158,7 +158,7 @@ Result<BakeResult> bake(const Mesh& low, const BakeSource& high, std::span<const
                              options.v_points_down, options.samples);
   if (Status ok = check_samples(samples, low_triangles, "low mesh"); !ok) return ok.error();
   result.faces_without_uv = samples.faces_without_uv();
-  result.faces_outside = count_outside(low, options);
+  result.faces_outside = count_outside(low_triangles.mesh, options);
   if (result.faces_without_uv == low_triangles.mesh.face_count()) {
     return Error{ErrorKind::input, "low mesh", "no face has UVs to bake on", "unwrap it first"};
   }

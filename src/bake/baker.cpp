@@ -93,7 +93,7 @@ void Baker::bake_texel(const std::vector<TexelSample>& samples, std::size_t band
     met |= hit;
     ++count;
   }
-  if (met) met_ = true;
+  if (met && !met_.load(std::memory_order_relaxed)) met_ = true;
   write(texel, sums, count);
   if (best.is_on()) {
     scene_.result.inside[texel] = 1;

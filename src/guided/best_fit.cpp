@@ -40,37 +40,36 @@ BestFitPage::BestFitPage(const Frame& frame, Wrap wrap, Coverage coverage, doubl
       care_(care),
       fine_(domain_of(frame, wrap)) {}
 
-RasterScale BestFitPage::raster_scale(int halvings) const {
-  const double cells = std::exp2(-halvings);
+RasterScale BestFitPage::raster_scale(std::size_t halvings) const {
+  const double cells = std::exp2(-static_cast<double>(halvings));
   RasterScale scale = raster_scale_on(frame_, scale_, coverage_);
   scale.cells_per_unit = cells * scale.cells_per_unit;
   scale.growth *= cells;
   return scale;
 }
 
-/// Makes the board for charts of this size, if it is not there yet.
-void BestFitPage::use_board(int halvings, double extent) {
-  if (halvings != halvings_) {
-    halvings_ = halvings;
+/// Chooses the board for charts of this size, and makes it if it is not there yet.
+void BestFitPage::use_board(std::size_t halvings, double extent) {
+  halvings_ = halvings;
+  if (boards_.size() <= halvings) boards_.resize(halvings + 1);
+  Board& board = boards_[halvings];
+  const int times = static_cast<int>(halvings);
+  if (times > 0 && !board.cells) {
     const Domain fine = fine_.domain();
-    coarse_.reset();
-    if (halvings > 0) {
-      coarse_ = std::make_unique<Occupancy>(Domain{
-          halved(fine.width, halvings), halved(fine.height, halvings), fine.wraps_x, fine.wraps_y});
-      for (int y = 0; y < fine.height; ++y) {
-        for_each_run(fine_.row(0, y), fine.width, [&](int begin, int end) {
-          take_halved(*coarse_, halvings, fine, y, begin, end);
-        });
-      }
-      coarse_->update();
+    board.cells = std::make_unique<Occupancy>(
+        Domain{halved(fine.width, times), halved(fine.height, times), fine.wraps_x, fine.wraps_y});
+    for (int y = 0; y < fine.height; ++y) {
+      for_each_run(fine_.row(0, y), fine.width, [&](int begin, int end) {
+        take_halved(*board.cells, times, fine, y, begin, end);
+      });
     }
-    row_extent_ = 0;
+    board.cells->update();
   }
   // Smaller charts find room above, where larger ones did not.
   constexpr double kSmaller = 0.6;
-  if (row_extent_ == 0 || extent < kSmaller * row_extent_) {
-    row_extent_ = extent;
-    first_row_ = 0;
+  if (board.row_extent == 0 || extent < kSmaller * board.row_extent) {
+    board.row_extent = extent;
+    board.first_row = 0;
   }
 }
 
@@ -80,7 +79,7 @@ void BestFitPage::seek(const RasterShape& shape, std::span<const double> angles,
   const Occupancy& board = this->board();
   const Domain& domain = board.domain();
   const RasterScale scale = raster_scale(halvings_);
-  const double fine = std::exp2(halvings_);
+  const double fine = std::exp2(static_cast<double>(halvings_));
   const int max_side = kLongestInDomains * std::max(domain.width, domain.height);
   int first_free = domain.height;
   // Of the smallest charts there are very many, and angles say little of them.
@@ -93,7 +92,7 @@ void BestFitPage::seek(const RasterShape& shape, std::span<const double> angles,
     if (!admits(domain, piece)) continue;
     FreeRange range;
     range.x_end = domain.width;
-    range.y_begin = everywhere ? 0 : first_row_;
+    range.y_begin = everywhere ? 0 : boards_[halvings_].first_row;
     const int rows = domain.wraps_y ? domain.height : domain.height - piece.height + 1;
     range.y_count = rows - range.y_begin;
     if (range.y_count <= 0) continue;
@@ -117,7 +116,9 @@ void BestFitPage::seek(const RasterShape& shape, std::span<const double> angles,
     best.at = {(best_shift.x + piece.centre.x) * fine, (best_shift.y + piece.centre.y) * fine};
     candidates_.push_back(best);
   }
-  if (domain.height > kFewRows && !everywhere) first_row_ = std::min(first_free, domain.height - 1);
+  if (domain.height > kFewRows && !everywhere) {
+    boards_[halvings_].first_row = std::min(first_free, domain.height - 1);
+  }
   std::stable_sort(candidates_.begin(), candidates_.end(),
                    [](const Candidate& a, const Candidate& b) { return a.contact > b.contact; });
 }
@@ -134,7 +135,7 @@ std::optional<BestFitPage::Spot> BestFitPage::settle(const RasterShape& shape,
   if (!admits(domain, piece)) return {};
   const int x = static_cast<int>(std::lround(candidate.at.x - piece.centre.x));
   const int y = static_cast<int>(std::lround(candidate.at.y - piece.centre.y));
-  const int window = halvings_ == 0 ? 0 : (1 << halvings_) + 1;
+  const int window = halvings_ == 0 ? 0 : (1 << static_cast<int>(halvings_)) + 1;
   const Probes probes = probes_of(piece, *raster.unturned, fine_);
   const Ring ring = ring_of(*raster.unturned);
   CellShift best;
@@ -178,25 +179,28 @@ std::optional<BestFitPage::Spot> BestFitPage::settle(const RasterShape& shape,
 }
 
 void BestFitPage::take(const Piece& piece, int x, int y) {
-  for (const PieceRun& run : piece.runs) {
-    fine_.take(y + run.row, x + run.begin, x + run.end);
-    if (coarse_) {
-      take_halved(*coarse_, halvings_, fine_.domain(), y + run.row, x + run.begin, x + run.end);
-    }
-  }
+  for (const PieceRun& run : piece.runs) fine_.take(y + run.row, x + run.begin, x + run.end);
   fine_.update();
-  if (coarse_) coarse_->update();
+  for (std::size_t times = 1; times < boards_.size(); ++times) {
+    Occupancy* cells = boards_[times].cells.get();
+    if (cells == nullptr) continue;
+    for (const PieceRun& run : piece.runs) {
+      take_halved(*cells, static_cast<int>(times), fine_.domain(), y + run.row, x + run.begin,
+                  x + run.end);
+    }
+    cells->update();
+  }
 }
 
 std::optional<BestFitPage::Spot> BestFitPage::place(const ChartShape& shape,
                                                     std::span<const double> angles) {
   const double along = std::sqrt(shape.area) * scale_ / std::sqrt(frame_.cell.x * frame_.cell.y) +
                        2 * frame_.growth + 1;
-  const int halvings =
-      std::max(0, static_cast<int>(std::floor(std::log2(along / care_.cells_along))));
+  const auto halvings =
+      static_cast<std::size_t>(std::max(0.0, std::floor(std::log2(along / care_.cells_along))));
   use_board(halvings, shape.extent);
   for (const bool everywhere : {false, true}) {
-    if (everywhere && first_row_ == 0) break;
+    if (everywhere && boards_[halvings_].first_row == 0) break;
     seek(shape.raster, angles, everywhere);
     for (std::size_t i = 0; i < std::min(kSettled, candidates_.size()); ++i) {
       if (auto spot = settle(shape.raster, candidates_[i])) return spot;

@@ -47,22 +47,27 @@ class BestFitPage {
     Vec2 at;  ///< fine cells, of the chart's box centre
     double contact = 0;
   };
-  [[nodiscard]] RasterScale raster_scale(int halvings) const;
-  void use_board(int halvings, double extent);
+  [[nodiscard]] RasterScale raster_scale(std::size_t halvings) const;
+  void use_board(std::size_t halvings, double extent);
   void seek(const RasterShape& shape, std::span<const double> angles, bool everywhere);
   std::optional<Spot> settle(const RasterShape& shape, const Candidate& candidate);
   void take(const Piece& piece, int x, int y);
-  [[nodiscard]] Occupancy& board() { return coarse_ ? *coarse_ : fine_; }
+  [[nodiscard]] Occupancy& board() { return halvings_ > 0 ? *boards_[halvings_].cells : fine_; }
 
   Frame frame_;
   Coverage coverage_;
   double scale_;
   BestFitCare care_;
   Occupancy fine_;
-  std::unique_ptr<Occupancy> coarse_;  ///< none while halvings_ is 0
-  int halvings_ = 0;                   ///< a cell of the board is 2^halvings_ of the frame's long
-  int first_row_ = 0;      ///< of the board; above it charts of this size found no place
-  double row_extent_ = 0;  ///< of the charts that first_row_ is for
+  struct Board {
+    std::unique_ptr<Occupancy> cells;  ///< none before it is asked for, and of number 0: fine_
+    int first_row = 0;                 ///< above it charts of this size found no place
+    double row_extent = 0;             ///< of the charts that first_row is for
+  };
+  /// By how often their cells are halved: charts of all sizes come in any order of areas.
+  std::vector<Board> boards_;
+  std::size_t halvings_ =
+      0;  ///< of the board at hand: its cells are 2^halvings_ of the frame's long
   FreeMap free_;
   std::vector<Candidate> candidates_;
   std::vector<CellShift> shifts_;

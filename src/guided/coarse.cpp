@@ -53,7 +53,8 @@ CoarseSearch::CoarseSearch(std::span<const ChartShape> shapes, Vec2 lengths, boo
     sum += std::sqrt(std::sqrt(shape.area / area_)) + kLeastChance;
     chances_.push_back(sum);
   }
-  first_area_ = double(options_.side) * options_.side * kAimed / options_.start;
+  first_area_ = std::min(square(options_.side) * kAimed / options_.start,
+                         square(double(kLongest) * options_.side));
   begin_anew();
 }
 

@@ -78,12 +78,12 @@ Frame Lines::frame_of(const Line& line) const {
 
 void Lines::improve(Line& line, double least_efficiency, Effort& effort) {
   if (!line.coarse.found() || line.coarse.efficiency() <= line.refined) return;
-  line.refined = line.coarse.efficiency();
   const Frame frame = frame_of(line);
   const Layout layout = line.coarse.best(frame.lengths());
   RefineOptions how;
   how.least_scale = std::sqrt(least_efficiency * frame.texels() / total_area(shapes_));
   auto fine = refine(shapes_, frame, options_, layout, how, effort, line.random);
+  if (fine || !effort.spent()) line.refined = line.coarse.efficiency();
   if (fine) record_.offer(std::move(*fine), 1 + line.offers++ * begun_ + line.number);
 }
 
@@ -130,7 +130,7 @@ double Lines::end() const {
 }
 
 void Lines::improve_all(double share) {
-  // A first success may grow a little yet.
+  // What comes a little short of the best may grow a little yet.
   constexpr double kGrowth = 0.95;
   const double least = kGrowth * record_.efficiency();
   each_line([&](Line& line) {
@@ -160,7 +160,7 @@ void Lines::run_until_stuck(double share) {
   } else {
     spend(0, share * end(), true);
   }
-  improve_all(share);
+  improve_all(std::min(1.0, share + kRefineShare));
 }
 
 void Lines::go_on() {

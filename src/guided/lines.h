@@ -23,8 +23,8 @@ class Lines {
   void begin_with(const Packing& packing, bool all);
   /// Searches until the record says that it is enough: the two below.
   void run();
-  /// Until each line has failed once, or this share of the time has passed. Of several frames:
-  /// chooses the best ones.
+  /// Until each line has failed once; of one frame, or about this share of the time has passed. Of
+  /// several frames: chooses the best ones.
   void run_until_stuck(double share = 1);
   void go_on();
 

@@ -39,6 +39,7 @@ Occupancy::Occupancy(const Domain& domain)
 }
 
 void Occupancy::take(int y, int begin, int end) {
+  if (begin >= end) return;
   y %= domain_.height;
   std::uint64_t* row = words(0, y);
   for_each_part(begin, end, domain_.width, [&](int from, int to) {

@@ -133,7 +133,7 @@ bool fits_alone(const PageTask& task, std::size_t chart, double scale) {
   return false;
 }
 
-/// No chart of this extent (in input units, from the middle of its box) is ever too large.
+/// No chart of this radius (in input units, from the middle of its box) is ever too large.
 double harmless_radius(const Frame& frame, double scale) {
   const Vec2 texels = frame.lengths();
   const double border = (frame.growth + 1) * std::max(frame.cell.x, frame.cell.y);

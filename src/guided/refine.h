@@ -18,7 +18,7 @@ struct RefineOptions {
   double last_step = 0.001;
   int stall_rounds = 10;
   int window = 6;          ///< cells
-  double least_scale = 0;  ///< texels per input unit; below it a packing is of no use
+  double least_scale = 0;  ///< texels per input unit; below it no first success is sought
   bool exact = false;  ///< the layout is right but for its scale: each attempt begins with it anew
 };
 

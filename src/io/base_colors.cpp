@@ -48,7 +48,9 @@ Result<BaseColors> base_colors(const Model& model, int threads) {
   if (!model.mesh.texcoords.empty()) {
     if (const Status ok = add_textures(model, threads, own); !ok) return ok.error();
   }
-  const std::vector<std::array<float, 3>> factors = model.source->base_factors();
+  // Beside colours of vertices an OBJ's Kd is, as beside a map_Kd, what its exporter left there.
+  const bool painted = model.format == FileFormat::obj && !model.corner_color.empty();
+  const auto factors = painted ? std::vector<std::array<float, 3>>() : model.source->base_factors();
   for (std::size_t material = 0; material < factors.size(); ++material) {
     if (factors[material] != kNoFactor) group_of(material, own).factor = factors[material];
   }

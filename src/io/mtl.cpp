@@ -153,12 +153,16 @@ std::vector<MtlMap> read_mtl_maps(std::string_view bytes) {
 std::map<std::string_view, std::array<float, 3>> read_mtl_colors(std::string_view bytes) {
   std::map<std::string_view, std::array<float, 3>> colors;
   std::string_view material;
+  bool in_material = false;
   ObjLines lines(bytes);
   for (ObjLine line; lines.next(line);) {
     ObjWords words(line.text);
     const std::string_view keyword = words.next();
-    if (keyword == "newmtl") material = Arguments(words).picture();
-    if (lower(keyword) != "kd") continue;
+    if (keyword == "newmtl") {
+      material = Arguments(words).picture();
+      in_material = true;
+    }
+    if (!in_material || lower(keyword) != "kd") continue;
     std::array<float, 3> color{};
     bool complete = true;
     for (float& value : color) {

@@ -24,7 +24,7 @@ TEST(Mtl, MapsAndTheirMaterials) {
 
 TEST(Mtl, ColoursOfMaterialsWithoutAPicture) {
   const auto colors = read_mtl_colors(
-      "newmtl a b\nKd 1 .5 0\nnewmtl b\nmap_Kd x.png\nKd 1 1 0\nnewmtl c\nKd 1 2\n"
+      "Kd 0 0 0\nnewmtl a b\nKd 1 .5 0\nnewmtl b\nmap_Kd x.png\nKd 1 1 0\nnewmtl c\nKd 1 2\n"
       "newmtl d\nkd 7 0.25 -1\nnewmtl e\nKd spectral a.rfl\nnewmtl f\nKd 1 nan 1\n");
   ASSERT_EQ(colors.size(), 2U);
   EXPECT_EQ(colors.at("a b"), (std::array<float, 3>{1, 0.5F, 0}));

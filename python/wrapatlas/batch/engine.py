@@ -83,13 +83,22 @@ def run(assets: str, out: str, recipe: str = "unwrap", options: Sequence[str] = 
     folder = state_folder(out, state)
     if retries < 0 or (workers is not None and workers < 1):
         raise UsageError("--retries is 0 or more, --workers 1 or more")
+    if any(limit is not None and not limit > 0 for limit in (time_limit, memory_limit)):
+        raise UsageError("--time-limit and --memory-limit are more than 0")
+    home = local_path(out) if is_local(out) else folder  # of what is under way, as output.py has it
+    held = contextlib.ExitStack()
     try:
-        os.makedirs(os.path.join(folder, ".batch"), exist_ok=True)
-        lock = Lock(os.path.join(folder, ".batch", "lock"))
+        for place in sorted({folder, home}):
+            os.makedirs(os.path.join(place, ".batch"), exist_ok=True)
+            held.callback(Lock(os.path.join(place, ".batch", "lock")).free)
     except OSError as error:
-        raise BatchError(f"{folder}: cannot be written to ({error.strerror})") from error
+        held.close()
+        raise BatchError(f"{place}: cannot be written to ({error.strerror})") from error
+    except BatchError:
+        held.close()
+        raise
     try:
-        shutil.rmtree(os.path.join(folder, ".batch", "tmp"), ignore_errors=True)  # of a run that was killed
+        shutil.rmtree(os.path.join(home, ".batch", "tmp"), ignore_errors=True)  # of a run that was killed
         store = Store(os.path.join(folder, ".batch", "state.sqlite"))
         try:
             total = store.take_manifest(manifest.read(assets, join(out, "assets")))
@@ -116,8 +125,8 @@ def run(assets: str, out: str, recipe: str = "unwrap", options: Sequence[str] = 
     except OSError as error:
         raise BatchError(f"{error.filename or folder}: {error.strerror or error}; what is done stays done") from error
     finally:
-        shutil.rmtree(os.path.join(folder, ".batch", "tmp"), ignore_errors=True)
-        lock.free()
+        shutil.rmtree(os.path.join(home, ".batch", "tmp"), ignore_errors=True)
+        held.close()
 
 
 def state_folder(out: str, state: Optional[str]) -> str:

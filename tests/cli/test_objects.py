@@ -114,8 +114,10 @@ class Objects(CommandTest):
                     out = "out" + ending
                     self.pack("source.glb", out, "--wrap", "uv", "--export", export)
                     wraps = "none" if export == "cut" else "uv"
+                    # In a format without nodes the one that is shown twice is there twice.
+                    charts = 2 if ending == ".glb" else 3
                     self.assertEqual(
-                        self.check(out, "source.glb", "--wrap", wraps)["charts"], 2)
+                        self.check(out, "source.glb", "--wrap", wraps)["charts"], charts)
 
     def test_faces_that_are_there_twice_in_one_object(self):
         self.write("source.obj", obj(*ALL, *ALL, 0))

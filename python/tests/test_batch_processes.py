@@ -49,8 +49,9 @@ class Killer(threading.Thread):
     def run(self):
         wait_until(lambda: finished(self.out) >= self.when, 3600)
         worker = psutil.Process(self.pids[0])
-        wait_until(lambda: worker.children())
-        self.command = worker.children()[0]
+        commands = []  # a second look may come too late
+        wait_until(lambda: commands.extend(worker.children()) or commands)
+        self.command = commands[0]
         worker.kill()
         self.killed = worker.pid
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Literal, Sequence, cast
+from typing import TYPE_CHECKING, Any, Literal, Sequence, cast
 
 import numpy as np
 import numpy.typing as npt
@@ -181,6 +181,7 @@ def transfer(
     set_given(settings, {"role": role, "repeat": repeat})
     settings.keep_tangents = keep_tangents
     settings.bleed = bleed
+    textures: list[npt.NDArray[Any] | None]
     if face_texture is None:
         textures = [pixels("texture", cast(npt.ArrayLike, texture))]
         groups = None

@@ -69,9 +69,9 @@ struct BakeResult {
   std::size_t faces_without_uv = 0;  ///< of the low mesh: none, or of no area
   std::size_t faces_outside = 0;  ///< triangles of it: more than a texel outside [0, 1], on an axis
                                   ///< that does not repeat
-  double distance = 0;  ///< BakeOptions::distance in force
-  Vec3 low_corner;      ///< of both meshes' box
-  double extent = 1;    ///< its longest side
+  double distance = 0;            ///< BakeOptions::distance in force
+  Vec3 low_corner;                ///< of both meshes' box
+  double extent = 1;              ///< its longest side
 };
 
 /// Each sample of a texel lies on a triangle of the low mesh and looks along its smoothed normal,

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <cmath>
 
 #include "io/number.h"
 #include "io/obj_lines.h"
@@ -129,10 +128,9 @@ std::string kept_options(std::string_view options) {
   return kept;
 }
 
-}  // namespace
-
-std::vector<MtlMap> read_mtl_maps(std::string_view bytes) {
-  std::vector<MtlMap> maps;
+/// Calls visit(material, keyword, words after it) for each statement of a material.
+template <typename Visit>
+void for_each_statement(std::string_view bytes, Visit&& visit) {
   std::string_view material;
   bool in_material = false;
   ObjLines lines(bytes);
@@ -142,36 +140,38 @@ std::vector<MtlMap> read_mtl_maps(std::string_view bytes) {
     if (keyword == "newmtl") {
       material = Arguments(words).picture();
       in_material = true;
-    } else if (in_material && names_picture(keyword)) {
-      MtlMap map = map_of(keyword, words, material);
-      if (!map.picture.empty()) maps.push_back(map);
+    } else if (in_material) {
+      visit(material, keyword, words);
     }
   }
+}
+
+}  // namespace
+
+std::vector<MtlMap> read_mtl_maps(std::string_view bytes) {
+  std::vector<MtlMap> maps;
+  for_each_statement(
+      bytes, [&](std::string_view material, std::string_view keyword, const ObjWords& words) {
+        if (!names_picture(keyword)) return;
+        MtlMap map = map_of(keyword, words, material);
+        if (!map.picture.empty()) maps.push_back(map);
+      });
   return maps;
 }
 
 std::map<std::string_view, std::array<float, 3>> read_mtl_colors(std::string_view bytes) {
   std::map<std::string_view, std::array<float, 3>> colors;
-  std::string_view material;
-  bool in_material = false;
-  ObjLines lines(bytes);
-  for (ObjLine line; lines.next(line);) {
-    ObjWords words(line.text);
-    const std::string_view keyword = words.next();
-    if (keyword == "newmtl") {
-      material = Arguments(words).picture();
-      in_material = true;
-    }
-    if (!in_material || lower(keyword) != "kd") continue;
-    std::array<float, 3> color{};
-    bool complete = true;
-    for (float& value : color) {
-      double number = 0;
-      complete = complete && parse_coordinate(words.next(), number) && std::isfinite(number);
-      value = static_cast<float>(std::clamp(number, 0.0, 1.0));
-    }
-    if (complete) colors[material] = color;
-  }
+  for_each_statement(bytes,
+                     [&](std::string_view material, std::string_view keyword, ObjWords words) {
+                       if (lower(keyword) != "kd") return;
+                       std::array<float, 3> color{};
+                       for (float& value : color) {
+                         double number = 0;
+                         if (!parse_coordinate(words.next(), number)) return;
+                         value = static_cast<float>(std::clamp(number, 0.0, 1.0));
+                       }
+                       colors[material] = color;
+                     });
   for (const MtlMap& map : read_mtl_maps(bytes)) {
     if (lower(map.keyword) == "map_kd") colors.erase(map.material);
   }

@@ -15,8 +15,11 @@ namespace {
 /// Scales tried at once, whatever the number of threads, so that the result does not depend on it.
 constexpr std::size_t kAtOnce = 2;
 constexpr double kTolerance = 0.004;  ///< of the factor of the scale
+constexpr double kSame = 1e-9;        ///< difference of factors
 constexpr double kLikely = 0.8;       ///< a factor that most often succeeds
 constexpr double kSmallest = 1e-3;    ///< give up when not even this does
+/// From so many charts on what fits at one scale also fits at smaller ones, as good as always.
+constexpr std::size_t kMany = 2000;
 
 class BestFitSearch {
  public:
@@ -44,6 +47,10 @@ class BestFitSearch {
       std::array<double, kAtOnce> factors{lower + (upper - lower) / 3,
                                           lower + 2 * (upper - lower) / 3};
       if (lower == 0) factors = {likely, likely + (upper - likely) / 2};
+      if (guess_ > lower && guess_ < upper) {
+        factors = {guess_, std::min(guess_ + 0.75 * kTolerance, guess_ + (upper - guess_) / 2)};
+      }
+      guess_ = 0;
       const std::size_t success = try_all(factors);
       if (success < kAtOnce) {
         lower = factors[success];
@@ -95,7 +102,9 @@ class BestFitSearch {
   }
 
   /// Success is not monotone: a scale that failed leaves some room above it (see scale_search.h).
-  static double raised(double factor, double upper) { return factor + (upper - factor) / 4; }
+  [[nodiscard]] double raised(double factor, double upper) const {
+    return shapes_.size() >= kMany ? factor : factor + (upper - factor) / 4;
+  }
 
   [[nodiscard]] bool hurried() const {
     constexpr double kShort = 3;  // seconds
@@ -115,7 +124,10 @@ class BestFitSearch {
         }
         return done();
       };
-      succeeded[i] = attempt(factors[i], by_extent_, stop);
+      if (has_failed(factors[i])) return;
+      double placed = 0;
+      succeeded[i] = attempt(factors[i], by_extent_, stop, &placed);
+      if (!succeeded[i] && !stop()) note_failure(factors[i], placed);
     });
     settle();
     for (std::size_t i = kAtOnce; i-- > 0;) {
@@ -124,10 +136,27 @@ class BestFitSearch {
     return kAtOnce;
   }
 
+  /// In the order of by_extent_, in which it would fail again.
+  [[nodiscard]] bool has_failed(double factor) {
+    const std::lock_guard lock(mutex_);
+    return std::any_of(failed_.begin(), failed_.end(),
+                       [&](double other) { return std::abs(factor - other) < kSame; });
+  }
+  /// `placed`: the area of what found room. Of many charts it tells how much finds room at other
+  /// scales, the better the closer they are.
+  void note_failure(double factor, double placed) {
+    const std::lock_guard lock(mutex_);
+    failed_.push_back(factor);
+    if (shapes_.size() < kMany || (guess_ > 0 && guessed_from_ < factor)) return;
+    guessed_from_ = factor;
+    guess_ = factor * std::sqrt(placed / area_);
+  }
+
   template <typename Stop>
-  bool attempt(double factor, const std::vector<std::uint32_t>& order, Stop stop) {
+  bool attempt(double factor, const std::vector<std::uint32_t>& order, Stop stop,
+               double* placed = nullptr) {
     if (factor <= best_factor_) return false;
-    auto filling = fill_pages(task(), factor * full_scale_, order, options_.pages, stop);
+    auto filling = fill_pages(task(), factor * full_scale_, order, options_.pages, stop, placed);
     if (!filling) return false;
     const std::lock_guard lock(mutex_);
     if (factor > found_factor_) {
@@ -153,6 +182,9 @@ class BestFitSearch {
   std::vector<std::uint32_t> by_extent_;
   std::mutex mutex_;
   double best_factor_ = 0, found_factor_ = 0;
+  std::vector<double> failed_;  ///< factors
+  double guess_ = 0;            ///< a factor that may just succeed, of this round; 0: none
+  double guessed_from_ = 0;     ///< the smallest one that failed in this round
 };
 
 /// A packing soon, on a coarse grid: where time is short for so many pages, what is found first is

@@ -36,11 +36,12 @@ void FreeMap::rank(const Occupancy& occupancy, const FreeRange& range, int index
   const bool around_x = range.whole && domain.wraps_x;
   const bool around_y =
       range.whole && domain.wraps_y && rows_known == range.y_count && rows_known == domain.height;
+  if (row_of_[static_cast<std::size_t>(index)] < 0) return;
   const std::uint64_t* here = row(index);
   const auto row_or_null = [&](int i) -> const std::uint64_t* {
-    if (i >= 0 && i < rows_known) return row(i);
-    if (!around_y) return nullptr;
-    return row(i < 0 ? rows_known - 1 : 0);
+    if (around_y) i = i < 0 ? rows_known - 1 : i < rows_known ? i : 0;
+    if (i < 0 || i >= rows_known) return nullptr;
+    return row(i);
   };
   const std::uint64_t* above = row_or_null(index - 1);
   const std::uint64_t* below = row_or_null(index + 1);
@@ -81,10 +82,9 @@ void FreeMap::rank(const Occupancy& occupancy, const FreeRange& range, int index
 }
 
 /// The free translations of row y of the domain, within the range. False if there are none; then
-/// the row is cleared.
+/// what is in the row means nothing.
 bool FreeMap::fill_row(const Occupancy& occupancy, const Probes& probes, const FreeRange& range,
-                       int y, std::uint64_t* to) const {
-  std::fill(to, to + words_, std::uint64_t{0});
+                       int y, std::uint64_t* to) {
   if (!range.whole) {
     if (!free_row(occupancy, probes.all, y, first_word_, words_, to)) return false;
     bool any = false;
@@ -94,16 +94,23 @@ bool FreeMap::fill_row(const Occupancy& occupancy, const Probes& probes, const F
     }
     return any;
   }
+  if (!open_words(occupancy, probes, y, open_)) return false;
   bool any = false;
-  const std::uint64_t open = open_blocks(occupancy, probes, y);
-  const int blocks = (words_ + Occupancy::kBlockWords - 1) / Occupancy::kBlockWords;
-  for (int block = 0; block < blocks; ++block) {
-    if (((open >> block) & 1U) == 0) continue;
-    const int word = block * Occupancy::kBlockWords;
-    const int words = std::min(Occupancy::kBlockWords, words_ - word);
-    any = free_row(occupancy, probes.all, y, word, words, to + word) || any;
-  }
+  std::fill(to, to + words_, std::uint64_t{0});
+  for_each_run(open_.data(), words_, [&](int begin, int end) {
+    prefetch_rows(occupancy, probes, y, begin, end - begin);
+    any = free_row(occupancy, probes.all, y, begin, end - begin, to + begin) || any;
+  });
   return any;
+}
+
+/// Where the next row that has a free translation goes.
+std::uint64_t* FreeMap::next_row() {
+  const std::size_t begin =
+      static_cast<std::size_t>(kept_rows_) * static_cast<std::size_t>(stride_);
+  const std::size_t end = begin + static_cast<std::size_t>(stride_);
+  if (free_.size() < end) free_.resize(2 * end);
+  return free_.data() + begin;
 }
 
 int FreeMap::scan(const Occupancy& occupancy, const Probes& probes, const FreeRange& range,
@@ -114,13 +121,16 @@ int FreeMap::scan(const Occupancy& occupancy, const Probes& probes, const FreeRa
   stride_ = words_ + 8;  // free_row() may write that much more
   first_row_ = -1;
   for (auto& shifts : by_blocked_) shifts.clear();
-  const auto size = static_cast<std::size_t>(stride_) * static_cast<std::size_t>(range.y_count);
-  if (free_.size() < size) free_.resize(size);
+  row_of_.clear();
+  kept_rows_ = 0;
+  none_.assign(static_cast<std::size_t>(words_), 0);
+  open_.resize(static_cast<std::size_t>(words_for(words_)));
   int rows = 0;
   for (; rows < range.y_count; ++rows) {
     int y = range.y_begin + rows;
     if (y >= domain.height) y -= domain.height;
-    const bool any = fill_row(occupancy, probes, range, y, row(rows));
+    const bool any = fill_row(occupancy, probes, range, y, next_row());
+    row_of_.push_back(any ? kept_rows_++ : -1);
     if (any && first_row_ < 0) first_row_ = rows;
     if (enough > 0 && first_row_ >= 0 && rows > first_row_) {
       rank(occupancy, range, rows - 1, rows + 1);

@@ -36,16 +36,23 @@ class FreeMap {
   void tightest(std::size_t count, std::vector<CellShift>& shifts) const;
 
  private:
-  [[nodiscard]] std::uint64_t* row(int i) {
-    return free_.data() + static_cast<std::size_t>(i) * static_cast<std::size_t>(stride_);
+  /// Of those looked at.
+  [[nodiscard]] const std::uint64_t* row(int i) const {
+    const std::ptrdiff_t kept = row_of_[static_cast<std::size_t>(i)];
+    return kept < 0 ? none_.data() : free_.data() + kept * stride_;
   }
+  std::uint64_t* next_row();
   bool fill_row(const Occupancy& occupancy, const Probes& probes, const FreeRange& range, int y,
-                std::uint64_t* to) const;
+                std::uint64_t* to);
   void rank(const Occupancy& occupancy, const FreeRange& range, int index, int rows_known);
 
   int first_word_ = 0, words_ = 0, stride_ = 0;
   int first_row_ = -1;
-  std::vector<std::uint64_t> free_;
+  std::vector<std::uint64_t> free_;  ///< rows that have free translations; few have
+  std::vector<int> row_of_;          ///< of those looked at, which of the rows in free_; -1: none
+  int kept_rows_ = 0;
+  std::vector<std::uint64_t> none_;  ///< a row without any
+  std::vector<std::uint64_t> open_;
   CellShift any_;  ///< a free translation, if first_row_ says that there is one
   std::array<std::vector<CellShift>, 5>
       by_blocked_;  ///< by the number of blocked neighbours; not 0

@@ -94,7 +94,7 @@ Probes probes_of(const Piece& piece, const BitLanes& cells, const Occupancy& occ
   for (const InnerSquare& square : inner_squares(cells, occupancy.square_levels(), kSquares)) {
     add(occupancy.square_table(square.level), square.x, square.y);
     probes.gates.push_back(
-        {square.level, square.y % domain.height, square.x % domain.width / Occupancy::kBlockBits});
+        {square.level, square.y % domain.height, square.x % domain.width / kWordBits});
   }
   for (const PieceRun& run : piece.runs) {
     int level = 0;
@@ -108,17 +108,38 @@ Probes probes_of(const Piece& piece, const BitLanes& cells, const Occupancy& occ
   return probes;
 }
 
-std::uint64_t open_blocks(const Occupancy& occupancy, const Probes& probes, int y) {
-  std::uint64_t open = ~std::uint64_t{0};
+bool open_words(const Occupancy& occupancy, const Probes& probes, int y,
+                std::span<std::uint64_t> open) {
+  std::fill(open.begin(), open.end(), ~std::uint64_t{0});
+  std::uint64_t any = ~std::uint64_t{0};
   for (const Probes::Gate& gate : probes.gates) {
     int row = y + gate.row;
     if (row >= occupancy.domain().height) row -= occupancy.domain().height;
-    // A block of translations looks into two blocks; the last bit stands for all that follow.
-    const std::uint64_t blocks = occupancy.open_blocks(gate.level, row);
-    const auto far = static_cast<std::uint64_t>(static_cast<std::int64_t>(blocks) >> gate.block);
-    open &= far | static_cast<std::uint64_t>(static_cast<std::int64_t>(far) >> 1);
+    const std::uint64_t* words = occupancy.open_words(gate.level, row);
+    any = 0;
+    // The translations of a word look into two.
+    int first = gate.word;
+    for (std::uint64_t& bits : open) {
+      bits &= bits_at(words, first) | bits_at(words, first + 1);
+      any |= bits;
+      first += kWordBits;
+    }
+    if (any == 0) return false;
   }
-  return open;
+  return true;
+}
+
+void prefetch_rows(const Occupancy& occupancy, const Probes& probes, int y, int first_word,
+                   int words) {
+  constexpr int kAhead = 2, kLineWords = 8;
+  const int height = occupancy.domain().height;
+  const int ahead = (y + kAhead) % height;
+  const std::ptrdiff_t line = ahead * occupancy.stride() + first_word;
+  for (std::size_t k = 0; k < std::min(kSquares, probes.all.size()); ++k) {
+    const std::uint64_t* at =
+        look(occupancy, probes.all[k], ahead, line, height * occupancy.stride());
+    for (int i = 0; i <= words; i += kLineWords) __builtin_prefetch(at + i);
+  }
 }
 
 std::vector<FreeRowKernel> free_row_kernels() { return kFreeRowVersions.usable(); }

@@ -23,9 +23,9 @@ struct Probe {
 /// What has to be free for a piece.
 struct Probes {
   std::vector<Probe> all;
-  /// Of the squares among them: their level, and row and block from a translation (0, 0) on.
+  /// Of the squares among them: their level, and row and word from a translation (0, 0) on.
   struct Gate {
-    std::int32_t level = 0, row = 0, block = 0;
+    std::int32_t level = 0, row = 0, word = 0;
   };
   std::vector<Gate> gates;
 };
@@ -33,9 +33,10 @@ struct Probes {
 /// `cells`: the piece's, a lane a row. Precondition: the domain admits the piece.
 Probes probes_of(const Piece& piece, const BitLanes& cells, const Occupancy& occupancy);
 
-/// Which blocks of translations (Occupancy::kBlockBits wide, from x = 0 on) of row y may have a
-/// free one: a bit each. The others need not be looked at.
-std::uint64_t open_blocks(const Occupancy& occupancy, const Probes& probes, int y);
+/// Which words of translations of row y may have a free one, a bit each: the others need not be
+/// looked at. `open`: for all words of the domain. False if there are none.
+bool open_words(const Occupancy& occupancy, const Probes& probes, int y,
+                std::span<std::uint64_t> open);
 
 /// Clears the bit of every translation (x, y) with x in the given words that is not free, and sets
 /// the others: bit x of `free`, from word `first_word` of the domain's row on. False if none is
@@ -43,6 +44,11 @@ std::uint64_t open_blocks(const Occupancy& occupancy, const Probes& probes, int 
 /// it does not wrap, the piece does not leave it at y.
 bool free_row(const Occupancy& occupancy, std::span<const Probe> probes, int y, int first_word,
               int words, std::uint64_t* free);
+
+/// Asks for the memory that free_row() will look at first for these words two rows further on,
+/// which most often are open where these are: the tables of a large domain fit into no cache.
+void prefetch_rows(const Occupancy& occupancy, const Probes& probes, int y, int first_word,
+                   int words);
 
 using FreeRowKernel = bool (*)(const Occupancy& occupancy, std::span<const Probe> probes, int y,
                                int first_word, int words, std::uint64_t* free);

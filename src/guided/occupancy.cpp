@@ -18,7 +18,9 @@ constexpr int kLargestSquare = 4;
 }  // namespace
 
 Occupancy::Occupancy(const Domain& domain)
-    : domain_(domain), stride_(words_for(2 * domain.width) + kSpareWords) {
+    : domain_(domain),
+      stride_(words_for(2 * domain.width) + kSpareWords),
+      open_stride_(2 * words_for(words_for(domain.width)) + 2) {
   while (stretch_levels_ <= kLongestStretch && (1 << stretch_levels_) <= domain.width) {
     ++stretch_levels_;
   }
@@ -28,9 +30,9 @@ Occupancy::Occupancy(const Domain& domain)
   }
   const int tables = stretch_levels_ + square_levels_ - 1;
   bits_.resize(static_cast<std::size_t>(std::ptrdiff_t{tables} * domain.height * stride_));
-  const std::ptrdiff_t blocks = (stride_ - 1 + kBlockWords - 1) / kBlockWords;
-  open_.resize(static_cast<std::size_t>(square_levels_) * static_cast<std::size_t>(domain.height),
-               ~std::uint64_t{0} >> std::max<std::ptrdiff_t>(0, kWordBits - blocks));
+  open_.resize(
+      static_cast<std::size_t>(std::ptrdiff_t{square_levels_} * domain.height * open_stride_),
+      ~std::uint64_t{0});
   if (domain_.wraps_x && domain_.wraps_y) return;
   for (int y = 0; y < domain_.height; ++y) changed_.push_back(y);
   first_changed_ = 0;
@@ -134,7 +136,7 @@ void Occupancy::update_squares(int level, int y, Span span) {
   std::uint64_t* to = words(square_table(level), y);
   if (!domain_.wraps_y && y + 2 * step > domain_.height) {
     std::fill(to - 1, to - 1 + stride_, ~std::uint64_t{0});
-    open_[static_cast<std::size_t>(level * domain_.height + y)] = 0;
+    set_open(level, y, {0, words_for(domain_.width)});
     return;
   }
   const int below = y + step < domain_.height ? y + step : y + step - domain_.height;
@@ -145,28 +147,21 @@ void Occupancy::update_squares(int level, int y, Span span) {
     to[word] = near[word] | far[word] | bits_at(near, x) | bits_at(far, x);
   }
   extend(to, span);
-  update_open(level, y, span);
+  set_open(level, y, span);
 }
 
-/// Of the blocks that these words are in, and of their repetitions.
-void Occupancy::update_open(int level, int y, Span span) {
-  constexpr int kLastBlock = kWordBits - 1;  // and all that follow
+/// For these words and their repetitions; all, if they are the whole domain's.
+void Occupancy::set_open(int level, int y, Span span) {
   const std::uint64_t* row = this->row(square_table(level), y);
-  std::uint64_t& open = open_[static_cast<std::size_t>(level * domain_.height + y)];
-  const int count = words_for(domain_.width), end_word = static_cast<int>(stride_) - 1;
-  const auto end_of = [&](int block) {
-    return block == kLastBlock ? end_word : std::min((block + 1) * kBlockWords, end_word);
-  };
+  std::uint64_t* open = open_.data() + (std::ptrdiff_t{level} * domain_.height + y) * open_stride_;
+  const int count = words_for(domain_.width);
+  const auto end_word = static_cast<int>(std::min(stride_ - 1, open_stride_ * kWordBits));
   const int end = is_whole(span) ? end_word : span.to;
   for (int around = 0; around + span.from < end_word; around += count) {
-    const int last = std::min(around + end, end_word) - 1;
-    int block = std::min((around + span.from) / kBlockWords, kLastBlock);
-    for (; block <= std::min(last / kBlockWords, kLastBlock); ++block) {
-      const bool has_free =
-          std::any_of(row + block * kBlockWords, row + end_of(block),
-                      [](std::uint64_t taken) { return taken != ~std::uint64_t{0}; });
-      const std::uint64_t bit = std::uint64_t{1} << block;
-      open = has_free ? open | bit : open & ~bit;
+    for (int word = around + span.from; word < std::min(around + end, end_word); ++word) {
+      const std::uint64_t bit = std::uint64_t{1} << (word % kWordBits);
+      std::uint64_t& bits = open[word / kWordBits];
+      bits = row[word] != ~std::uint64_t{0} ? bits | bit : bits & ~bit;
     }
     if (is_whole(span)) return;
   }

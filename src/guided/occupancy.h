@@ -38,12 +38,11 @@ class Occupancy {
   }
   [[nodiscard]] std::ptrdiff_t stride() const { return stride_; }
 
-  /// Which blocks of kBlockBits bits of a row of a table of squares, from bit 0 on and around, have
-  /// a square that is free: a bit each.
-  [[nodiscard]] std::uint64_t open_blocks(int level, int y) const {
-    return open_[static_cast<std::size_t>(level * domain_.height + y)];
+  /// Which words of a row of a table of squares, from bit 0 on and around, have a square that is
+  /// free: a bit each. Bits up to twice the words of the domain may be read, and 64 more.
+  [[nodiscard]] const std::uint64_t* open_words(int level, int y) const {
+    return open_.data() + (std::ptrdiff_t{level} * domain_.height + y) * open_stride_;
   }
-  static constexpr int kBlockWords = 8, kBlockBits = kBlockWords * kWordBits;
   [[nodiscard]] const std::uint64_t* data() const { return bits_.data(); }
 
   /// Takes cells [begin, end) of row y, folded onto the domain; within it where it does not wrap.
@@ -67,13 +66,13 @@ class Occupancy {
   void repeat(std::uint64_t* row, Span span) const;
   void update_stretches(int y, Span span);
   void update_squares(int level, int y, Span span);
-  void update_open(int level, int y, Span span);
+  void set_open(int level, int y, Span span);
 
   Domain domain_;
   int stretch_levels_ = 1, square_levels_ = 1;
-  std::ptrdiff_t stride_;
+  std::ptrdiff_t stride_, open_stride_;
   std::vector<std::uint64_t> bits_;
-  std::vector<std::uint64_t> open_;            ///< open_blocks(), level by level
+  std::vector<std::uint64_t> open_;            ///< open_words(), level by level
   std::vector<int> changed_;                   ///< rows
   int first_changed_ = 0, last_changed_ = -1;  ///< words of all of them
 };

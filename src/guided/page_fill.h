@@ -36,9 +36,10 @@ struct PageFilling {
 /// what it has room for. So every chart is on the first page that had room for it, but for those
 /// that were not tried where others of their size had failed. Nothing if a chart is left after
 /// `most` pages (0: any number), if one does not fit on an empty page, or if `stop` says so.
+/// `placed`: the area of the charts that were placed, in input units, whatever came of it.
 std::optional<PageFilling> fill_pages(const PageTask& task, double scale,
                                       std::span<const std::uint32_t> order, int most,
-                                      const std::function<bool()>& stop);
+                                      const std::function<bool()>& stop, double* placed = nullptr);
 
 /// Charts by decreasing extent, thin rings and arcs before what has room inside them; blurred a
 /// little if `blur` is not 0.

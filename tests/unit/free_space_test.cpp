@@ -99,14 +99,9 @@ TEST(Occupancy, TablesSayWhetherAnyCellIsTaken) {
     }
     for (int level = 1; level < boards.fast.square_levels(); ++level) {
       const std::uint64_t* row = boards.fast.row(boards.fast.square_table(level), y);
-      const int words = static_cast<int>(boards.fast.stride()) - 1;
-      for (int block = 0; block < kWordBits - 1; ++block) {
-        bool expected = false;
-        for (int k = block * Occupancy::kBlockWords; k < words; ++k) {
-          expected = expected || (k / Occupancy::kBlockWords == block && ~row[k] != 0);
-        }
-        ASSERT_EQ((boards.fast.open_blocks(level, y) >> block & 1U) != 0, expected)
-            << domain.width << " wide, block " << block;
+      for (int word = 0; word < 2 * words_for(domain.width); ++word) {
+        const std::uint64_t open = bits_at(boards.fast.open_words(level, y), word) & 1U;
+        ASSERT_EQ(open != 0, ~row[word] != 0) << domain.width << " wide, word " << word;
       }
     }
   }
@@ -169,7 +164,8 @@ TEST(FreeSpace, EveryVersionFindsAllFreeTranslations) {
         std::vector<std::uint64_t> row(static_cast<std::size_t>(count) + 8, ~std::uint64_t{0});
         const bool any = kernel(boards.fast, probes.all, y, first, count, row.data());
         bool expected_any = false;
-        const std::uint64_t open = open_blocks(boards.fast, probes, y);
+        std::vector<std::uint64_t> open(static_cast<std::size_t>(words_for(words)));
+        const bool any_open = open_words(boards.fast, probes, y, open);
         for (int x = first * kWordBits; x < (first + count) * kWordBits; ++x) {
           const bool expected = x < domain.width && boards.slow.free(piece, x, y);
           const auto word = static_cast<std::size_t>(x / kWordBits - first);
@@ -177,7 +173,8 @@ TEST(FreeSpace, EveryVersionFindsAllFreeTranslations) {
               << domain.width << " x " << domain.height << ", " << x << ", " << y;
           expected_any = expected_any || expected;
           if (expected) {
-            ASSERT_NE((open >> (x / Occupancy::kBlockBits)) & 1U, 0U);
+            ASSERT_TRUE(any_open);
+            ASSERT_NE(bits_at(open.data(), x / kWordBits) & 1U, 0U);
           }
           (expected ? free : blocked) += 1;
         }

@@ -12,12 +12,6 @@
 
 namespace wrapatlas::cli {
 
-inline constexpr Named<BakedMap> kBakedMaps[] = {{"tangent", BakedMap::tangent_normals},
-                                                 {"object", BakedMap::object_normals},
-                                                 {"position", BakedMap::positions},
-                                                 {"occlusion", BakedMap::occlusion},
-                                                 {"color", BakedMap::color}};
-
 struct BakeArguments {
   std::string low, high, output, color, json;
   BakedMap map = BakedMap::tangent_normals;

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <optional>
 
 #include "check_hints.h"
@@ -27,14 +26,10 @@ struct CheckArguments {
   bool quiet = false, verbose = false;
 };
 
-constexpr std::array<const char*, 9> kViolationNames{"overlap",     "gap",      "self_overlap",
-                                                     "bounds",      "margin",   "missing_face",
-                                                     "not_similar", "mirrored", "scale"};
-
 Json to_json(const CheckArguments& arguments, const CheckReport& report, double seconds) {
   Json findings = Json::array();
   for (const Finding& finding : report.findings) {
-    findings.push_back({{"kind", kViolationNames[static_cast<std::size_t>(finding.kind)]},
+    findings.push_back({{"kind", name_of(kViolations, finding.kind)},
                         {"amount", finding.amount},
                         {"text", finding.text}});
   }
@@ -202,16 +197,16 @@ Command make_check_command(CLI::App& parser) {
                  "at one common scale, none mirrored");
   add_resolution(app, a.resolution);
   add_choice(app, "--wrap", a.options.wrap, kWraps, "Axes on which the atlas wraps");
-  add_number(app, "--padding", a.options.padding, {0, kMostTexels, "texels"},
+  add_number(app, "--padding", a.options.padding, {0, double{kMostTexels}, "texels"},
              "Texels that must lie between charts");
-  add_number(app, "--margin", a.options.margin, {0, kMostTexels, "texels"},
+  add_number(app, "--margin", a.options.margin, {0, double{kMostTexels}, "texels"},
              "Texels that must lie between charts and a side, where it neither wraps nor was cut");
   add_number(app, "--pages", a.options.pages, {1, double{kMostPages}, "pages"},
              "Pages the atlas may have: UV tiles, ten to a row (UDIM). A chart is on the one that "
              "its smallest u and v lie on, and is judged among those there");
   add_choice(app, "--cut", a.options.cut, kWraps,
              "Axes along which it was cut (--export cut): charts may reach these sides");
-  add_number(app, "--tolerance", a.options.tolerance, {0, kMostTexels, "texels"},
+  add_number(app, "--tolerance", a.options.tolerance, {0, double{kMostTexels}, "texels"},
              "Texels by which a chart may differ from a similarity copy of its source");
   add_choice(app, "--stacked", a.stacked, kStacked,
              "keep: charts that overlap in the source may overlap here");

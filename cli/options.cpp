@@ -111,7 +111,7 @@ void add_threads(CLI::App& app, int& value) {
 }
 
 void add_bleed(CLI::App& app, double& value) {
-  add_number(app, "--bleed", value, {0, kMostTexels, "texels"},
+  add_number(app, "--bleed", value, {0, double{kMostTexels}, "texels"},
              "Texels by which charts go on over their borders, along the surface, for mip levels "
              "to see; beyond, the nearest texel is repeated");
 }

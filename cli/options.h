@@ -9,15 +9,12 @@
 #include <string>
 #include <vector>
 
-#include "pack/names.h"
+#include "names.h"
 #include "wrapatlas/charts.h"
 #include "wrapatlas/pack.h"
 #include "wrapatlas/result.h"
 
 namespace wrapatlas::cli {
-
-inline constexpr Named<Stacked> kStacked[] = {{"separate", Stacked::separate},
-                                              {"keep", Stacked::keep}};
 
 Error usage(std::string where, std::string what, std::string remedy);
 
@@ -80,8 +77,6 @@ struct Resolution {
   bool two_sided = false;  ///< given as WxH
 };
 CLI::Option* add_resolution(CLI::App& app, Resolution& value);
-
-inline constexpr double kMostTexels = 65536;
 
 void add_texcoord(CLI::App& app, int& value);
 void add_threads(CLI::App& app, int& value);

@@ -30,7 +30,7 @@ void add_promise_options(CLI::App& app, PackArguments& a) {
              "the border so that all UVs lie in [0,1]");
   add_number(app, "--padding", a.padding, {0, 4096, "texels"},
              "Texels between charts, kept exactly. Default: max(2, longer side / 256)");
-  add_number(app, "--margin", a.margin, {0, kMostTexels, "texels"},
+  add_number(app, "--margin", a.margin, {0, double{kMostTexels}, "texels"},
              "Texels to a side that does not wrap. Default: half the padding");
   add_number(app, "--block", a.options.block, {1, 64, "texels"},
              "No two charts share a block of N x N texels (4 for BCn compression)");

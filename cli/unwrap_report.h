@@ -9,11 +9,6 @@
 
 namespace wrapatlas::cli {
 
-inline constexpr Named<StretchMeasure> kStretches[] = {{"l2", StretchMeasure::l2},
-                                                       {"linf", StretchMeasure::linf}};
-inline constexpr Named<FlattenMethod> kFlattenMethods[] = {{"labf", FlattenMethod::labf},
-                                                           {"lscm", FlattenMethod::lscm}};
-
 struct Worst {
   double l2 = 0, linf = 0;
   std::size_t bad = 0;  ///< charts beyond the limits

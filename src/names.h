@@ -1,11 +1,15 @@
-// The names of the packing options' values, as the command and its reports write them.
+// The names of the options' values, as the command, its reports and Python write them.
 #pragma once
 
 #include <cstddef>
 #include <optional>
 #include <string_view>
 
+#include "wrapatlas/bake.h"
+#include "wrapatlas/charts.h"
 #include "wrapatlas/pack.h"
+#include "wrapatlas/unwrap.h"
+#include "wrapatlas/validate.h"
 
 namespace wrapatlas {
 
@@ -26,6 +30,26 @@ inline constexpr Named<Coverage> kCoverages[] = {{"conservative", Coverage::cons
                                                  {"center", Coverage::center}};
 inline constexpr Named<RotationBase> kRotationBases[] = {{"input", RotationBase::input},
                                                          {"box", RotationBase::box}};
+inline constexpr Named<Stacked> kStacked[] = {{"separate", Stacked::separate},
+                                              {"keep", Stacked::keep}};
+inline constexpr Named<StretchMeasure> kStretches[] = {{"l2", StretchMeasure::l2},
+                                                       {"linf", StretchMeasure::linf}};
+inline constexpr Named<FlattenMethod> kFlattenMethods[] = {{"labf", FlattenMethod::labf},
+                                                           {"lscm", FlattenMethod::lscm}};
+inline constexpr Named<BakedMap> kBakedMaps[] = {{"tangent", BakedMap::tangent_normals},
+                                                 {"object", BakedMap::object_normals},
+                                                 {"position", BakedMap::positions},
+                                                 {"occlusion", BakedMap::occlusion},
+                                                 {"color", BakedMap::color}};
+inline constexpr Named<Violation> kViolations[] = {{"overlap", Violation::overlap},
+                                                   {"gap", Violation::gap},
+                                                   {"self_overlap", Violation::self_overlap},
+                                                   {"bounds", Violation::bounds},
+                                                   {"margin", Violation::margin},
+                                                   {"missing_face", Violation::missing_face},
+                                                   {"not_similar", Violation::not_similar},
+                                                   {"mirrored", Violation::mirrored},
+                                                   {"scale", Violation::scale}};
 
 template <typename E, std::size_t N>
 const char* name_of(const Named<E> (&table)[N], E value) {

@@ -49,10 +49,13 @@ struct Progress {
   double best_efficiency = 0;  ///< 0 while there is none
 };
 
+inline constexpr int kMostTexels = 65536;  ///< along a side of an atlas
+inline constexpr int kMostPages = 1000;
+
 struct PackOptions {
   Method method = Method::guided;
   Wrap wrap = Wrap::uv;  ///< the baselines know `none` only
-  int width = 1024;      ///< texels of the final texture; 1 to 65536
+  int width = 1024;      ///< texels of the final texture; 1 to kMostTexels
   int height = 1024;     ///< the same
   Aspect aspect = Aspect::fixed;
   double padding = 2;  ///< texels between charts, Euclidean; 0 to 4096
@@ -82,8 +85,6 @@ struct PackOptions {
   /// the best packing so far.
   std::function<bool(const Progress&)> progress;
 };
-
-inline constexpr int kMostPages = 1000;
 
 /// UV units by which rounding to 32-bit floats may move a coordinate where there are so many pages.
 double page_rounding(int pages);

@@ -10,11 +10,6 @@
 namespace wrapatlas::python {
 namespace {
 
-constexpr double kMostTexels = 65536;
-constexpr const char* kViolations[] = {"overlap",     "gap",      "self_overlap",
-                                       "bounds",      "margin",   "missing_face",
-                                       "not_similar", "mirrored", "scale"};
-
 CheckReport check(const PyMesh& atlas, const std::optional<PyMesh>& reference,
                   const CheckOptions& options) {
   for (const auto& [name, texels] :
@@ -49,13 +44,16 @@ void bind_options(nb::module_& module) {
   const auto number = [&](const char* name, auto member, Range range) {
     add_number(options, name, member, range);
   };
-  number("width", [](CheckOptions & o) -> auto& { return o.width; }, {1, kMostTexels, "texels"});
-  number("height", [](CheckOptions & o) -> auto& { return o.height; }, {1, kMostTexels, "texels"});
+  number("width", [](CheckOptions & o) -> auto& { return o.width; },
+         {1, double{kMostTexels}, "texels"});
+  number("height", [](CheckOptions & o) -> auto& { return o.height; },
+         {1, double{kMostTexels}, "texels"});
   number("padding", [](CheckOptions & o) -> auto& { return o.padding; },
-         {0, kMostTexels, "texels"});
-  number("margin", [](CheckOptions & o) -> auto& { return o.margin; }, {0, kMostTexels, "texels"});
+         {0, double{kMostTexels}, "texels"});
+  number("margin", [](CheckOptions & o) -> auto& { return o.margin; },
+         {0, double{kMostTexels}, "texels"});
   number("tolerance", [](CheckOptions & o) -> auto& { return o.tolerance; },
-         {0, kMostTexels, "texels"});
+         {0, double{kMostTexels}, "texels"});
   number("pages", [](CheckOptions & o) -> auto& { return o.pages; },
          {1, double{kMostPages}, "pages"});
   number("findings", [](CheckOptions & o) -> auto& { return o.max_findings; }, {0, 1e9});
@@ -73,7 +71,7 @@ void bind_check(nb::module_& module) {
   bind_options(module);
   nb::class_<Finding>(module, "Finding", "A promise that an atlas breaks.")
       .def_prop_ro(
-          "kind", [](const Finding& f) { return kViolations[static_cast<std::size_t>(f.kind)]; },
+          "kind", [](const Finding& f) { return name_of(kViolations, f.kind); },
           "overlap, gap, self_overlap, bounds, margin, missing_face, not_similar, mirrored or "
           "scale")
       .def_ro("text", &Finding::text, "One line in words")

@@ -94,8 +94,12 @@ PyMesh load(const std::string& path, int texcoord, bool in_scene) {
     return load_model(path, options);
   }();
   auto shared = std::make_shared<Model>(take(std::move(model)));
-  const bool has_nodes = shared->format == FileFormat::gltf || shared->format == FileFormat::glb;
-  if (in_scene && has_nodes) shared->source.reset();  // saved, it is a new file
+  const bool is_gltf = shared->format == FileFormat::gltf || shared->format == FileFormat::glb;
+  if (texcoord > 0 && !is_gltf) {
+    raise(usage(fmt::format("texcoord={}", texcoord), path + " can hold one UV set only",
+                "leave it out: only glTF files have several sets"));
+  }
+  if (in_scene && is_gltf) shared->source.reset();  // saved, it is a new file
   return {shared};
 }
 

@@ -12,13 +12,6 @@
 namespace wrapatlas::python {
 namespace {
 
-constexpr double kMostTexels = 65536;
-constexpr Named<Stacked> kStacked[] = {{"separate", Stacked::separate}, {"keep", Stacked::keep}};
-constexpr Named<StretchMeasure> kStretches[] = {{"l2", StretchMeasure::l2},
-                                                {"linf", StretchMeasure::linf}};
-constexpr Named<FlattenMethod> kFlattenMethods[] = {{"labf", FlattenMethod::labf},
-                                                    {"lscm", FlattenMethod::lscm}};
-
 void bind_pack_settings(nb::module_& module) {
   nb::class_<PackSettings> settings(module, "PackSettings");
   settings.def(nb::init<>());
@@ -38,13 +31,13 @@ void bind_pack_settings(nb::module_& module) {
     add_number(settings, name, member, range);
   };
   number("width", [](PackSettings & s) -> auto& { return s.options.width; },
-         {1, kMostTexels, "texels"});
+         {1, double{kMostTexels}, "texels"});
   number("height", [](PackSettings & s) -> auto& { return s.options.height; },
-         {1, kMostTexels, "texels"});
+         {1, double{kMostTexels}, "texels"});
   number("padding", [](PackSettings & s) -> auto& { return s.options.padding; },
          {0, 4096, "texels"});
   number("margin", [](PackSettings & s) -> auto& { return s.options.margin; },
-         {0, kMostTexels, "texels"});
+         {0, double{kMostTexels}, "texels"});
   number("block", [](PackSettings & s) -> auto& { return s.options.block; }, {1, 64, "texels"});
   number("density", [](PackSettings & s) -> auto& { return s.density; }, {1e-9, 1e9, "texels"});
   number("pages", [](PackSettings & s) -> auto& { return s.options.pages; },

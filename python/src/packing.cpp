@@ -6,7 +6,7 @@
 
 #include "arrays.h"
 #include "long_work.h"
-#include "pack/names.h"
+#include "names.h"
 #include "packed.h"
 #include "wrapatlas/picture.h"
 #include "wrapatlas/unwrap.h"

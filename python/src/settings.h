@@ -9,7 +9,7 @@
 #include <type_traits>
 
 #include "failures.h"
-#include "pack/names.h"
+#include "names.h"
 
 namespace wrapatlas::python {
 

@@ -18,12 +18,6 @@
 namespace wrapatlas::python {
 namespace {
 
-constexpr double kMostTexels = 65536;
-constexpr Named<BakedMap> kBakedMaps[] = {{"tangent", BakedMap::tangent_normals},
-                                          {"object", BakedMap::object_normals},
-                                          {"position", BakedMap::positions},
-                                          {"occlusion", BakedMap::occlusion},
-                                          {"color", BakedMap::color}};
 constexpr Named<TextureRole> kRoles[] = {
     {"color", TextureRole::color}, {"normals", TextureRole::normals}, {"data", TextureRole::data}};
 constexpr Named<Repeat> kRepeats[] = {
@@ -87,10 +81,13 @@ void bind_bake(nb::module_& module) {
   const auto number = [&](const char* name, auto member, Range range) {
     add_number(options, name, member, range);
   };
-  number("width", [](BakeOptions & o) -> auto& { return o.width; }, {1, kMostTexels, "texels"});
-  number("height", [](BakeOptions & o) -> auto& { return o.height; }, {1, kMostTexels, "texels"});
+  number("width", [](BakeOptions & o) -> auto& { return o.width; },
+         {1, double{kMostTexels}, "texels"});
+  number("height", [](BakeOptions & o) -> auto& { return o.height; },
+         {1, double{kMostTexels}, "texels"});
   number("samples", [](BakeOptions & o) -> auto& { return o.samples; }, {1, 16});
-  number("bleed", [](BakeOptions & o) -> auto& { return o.bleed; }, {0, kMostTexels, "texels"});
+  number("bleed", [](BakeOptions & o) -> auto& { return o.bleed; },
+         {0, double{kMostTexels}, "texels"});
   number("distance", [](BakeOptions & o) -> auto& { return o.distance; }, {0, 1e30});
   number("occlusion_rays", [](BakeOptions & o) -> auto& { return o.occlusion_rays; }, {1, 65536});
   number("occlusion_distance", [](BakeOptions & o) -> auto& { return o.occlusion_distance; },
@@ -184,11 +181,11 @@ void bind_transfer(nb::module_& module) {
   nb::class_<TransferSettings> settings(module, "TransferSettings");
   settings.def(nb::init<>());
   add_number(settings, "width", [](TransferSettings & s) -> auto& { return s.options.width; },
-             {1, kMostTexels, "texels"});
+             {1, double{kMostTexels}, "texels"});
   add_number(settings, "height", [](TransferSettings & s) -> auto& { return s.options.height; },
-             {1, kMostTexels, "texels"});
+             {1, double{kMostTexels}, "texels"});
   add_number(settings, "bleed", [](TransferSettings & s) -> auto& { return s.options.bleed; },
-             {0, kMostTexels, "texels"});
+             {0, double{kMostTexels}, "texels"});
   add_number(settings, "threads", [](TransferSettings & s) -> auto& { return s.options.threads; },
              {0, 1024, "threads"});
   add_choice(

@@ -7,13 +7,14 @@ import pathlib
 import shutil
 import subprocess
 import sys
+import threading
 import unittest
 
 import distributed
 import fsspec
 import wrapatlas.batch as batch
 from batch_support import QUICK, ROOT, InFolder, box, results, table, textured_square
-from wrapatlas.batch import command, evaluate, files, manifest, page, recipe, store
+from wrapatlas.batch import command, evaluate, files, manifest, page, process, recipe, store
 
 
 class WithDask(InFolder):
@@ -115,6 +116,15 @@ class Manifests(WithDask):
                 self.assertEqual((summary.total, summary.done, summary.kept), (1, 1, kept), out)
             shutil.rmtree(out / "assets")
 
+    def test_results_are_no_assets_elsewhere(self):
+        memory = fsspec.filesystem("memory")
+        memory.put_file(str(box(self.folder / "a.off")), "/scans/a.off")
+        memory.pipe("/scans/.old/b.off", b"hidden")
+        self.addCleanup(memory.rm, "/scans", recursive=True)
+        for kept in (0, 1):
+            summary = self.run_batch("memory://scans", out="memory://scans/out", state=str(self.folder / "state"))
+            self.assertEqual((summary.total, summary.done, summary.kept), (1, 1, kept))
+
     def test_names(self):
         box(self.meshes / "a b.off")
         rows = [("tä st/ 日本 é", "meshes/a b.off"), ("twice", "meshes/a b.off"), ("twice", "meshes/a b.off"),
@@ -143,9 +153,13 @@ class Manifests(WithDask):
 
     def test_what_is_no_manifest(self):
         (self.folder / "x.csv").write_text("path\na.off\n")
-        for where in ("x.csv", "none.csv", "none"):
+        (self.folder / "latin.csv").write_bytes("input\nä.off\n".encode("latin-1"))
+        for where in ("x.csv", "none.csv", "none", "latin.csv"):
             with self.subTest(where=where), self.assertRaises(batch.UsageError):
                 self.run_batch(self.folder / where)
+        for where in ("nothing://x.csv", "nothing://x", "memory://none/x.csv"):
+            with self.subTest(where=where), self.assertRaisesRegex(batch.UsageError, f"^{where}: "):
+                self.run_batch(where)
 
     def test_values_of_a_row_that_are_no_text(self):
         path = self.folder / "a.jsonl"
@@ -222,6 +236,19 @@ class Failures(WithDask):
         self.out.write_text("a file")
         with self.assertRaisesRegex(batch.BatchError, "cannot be written to"):
             self.run_batch()
+
+    def test_output_where_there_is_no_file_system(self):
+        box(self.meshes / "a.off")
+        with self.assertRaisesRegex(batch.UsageError, "^nothing://x: "):
+            self.run_batch(out="nothing://x", state=str(self.folder / "state"))
+
+    def test_a_command_ends_when_its_folder_is_taken_away(self):
+        scratch = self.folder / "scratch"
+        scratch.mkdir()
+        threading.Timer(0.3, shutil.rmtree, [scratch]).start()
+        with open(self.folder / "log", "wb") as log:
+            ended = process.run_limited(["/bin/sleep", "60"], str(scratch), log, 30, None)
+        self.assertEqual((ended.status, ended.stopped), (-9, "folder"))
 
     def test_page(self):
         box(self.meshes / "good.off")
@@ -353,6 +380,12 @@ class Evaluating(WithDask):
         self.assertEqual(runs(joined.folder), runs(whole))
         for folder in (joined.folder, whole):
             subprocess.run([program, "report", folder, "-o", self.folder / "page", "--quiet"], check=True)
+
+    def test_a_folder_that_cannot_be_written_to(self):
+        box(self.meshes / "a.off")
+        self.out.write_text("a file")
+        with self.assertRaisesRegex(batch.BatchError, str(self.out)):
+            evaluate.evaluate(str(self.meshes), str(self.out), ["modulo"], [], client=self.client)
 
     def test_a_missing_part_leaves_the_mesh_out(self):
         for name in ("a", "b"):

@@ -183,6 +183,7 @@ class OwnScheduler(InFolder):
         address = json.loads((self.folder / "scheduler.json").read_text(encoding="utf-8"))["address"]
         ended = batch(self.meshes, "-o", self.out, "--scheduler", address, "--", *QUICK)
         self.assertEqual(ended.returncode, 1, ended.stderr)
+        self.assertRegex(ended.stderr, "(?m)^broken.off: failed: unwrap: .*broken.off")
         self.assertEqual(states(self.out), {"broken.off": "failed", **{f"{i}.off": "done" for i in range(6)}})
         self.assertEqual(self.left_over(), [])
 

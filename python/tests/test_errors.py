@@ -1,5 +1,6 @@
 """What cannot be used is refused in one line, and nothing crashes."""
 
+import pathlib
 import random
 import unittest
 
@@ -11,6 +12,7 @@ from wrapatlas._errors import as_python, make
 
 FLAT, FACES = shapes.scattered_squares()
 POSITIONS, TRIANGLES = shapes.square()
+KNOT = pathlib.Path(__file__).resolve().parents[2] / "samples/knot.off"
 
 
 class Arrays(unittest.TestCase):
@@ -135,6 +137,11 @@ class Options(unittest.TestCase):
                         {"moves": 5, "pages": 3}, {"resolution": (64, 32), "aspect": "2:1"}):
             with self.subTest(options), self.assertRaises(wrapatlas.UsageError):
                 wrapatlas.pack(FLAT, FACES, **options)
+        positions = np.column_stack([FLAT, 0 * FLAT[:, 0]])
+        page = wrapatlas.pack(FLAT, FACES, positions, density=4, pages=1, moves=5)
+        self.assertEqual(page.pages, 1)
+        with self.assertWarnsRegex(UserWarning, "one orientation"):
+            wrapatlas.pack(FLAT, FACES, method="lprm02", rotations=4)
         with self.assertRaisesRegex(TypeError, "unexpected keyword argument 'paddding'"):
             wrapatlas.pack(FLAT, FACES, paddding=2)
         with self.assertRaisesRegex(TypeError, "max_stretch"):
@@ -160,6 +167,10 @@ class Options(unittest.TestCase):
                         {"map": "color"}, {"samples": 0}, {"resolution": 70000}):
             with self.subTest(options), self.assertRaises(ValueError):
                 wrapatlas.bake(mesh, mesh, **options)
+
+    def test_sets_of_uvs_are_of_gltf(self):
+        with self.assertRaisesRegex(wrapatlas.UsageError, "texcoord=1: .*knot.off can hold one UV set"):
+            wrapatlas.load(KNOT, texcoord=1)
 
     def test_names_of_options_in_errors(self):
         self.assertEqual(as_python("raise --resolution, or lower --padding and --lambda"),

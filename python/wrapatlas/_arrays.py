@@ -9,7 +9,7 @@ import numpy.typing as npt
 
 from ._errors import InputError, UsageError
 
-__all__ = ["floats", "indices", "pixels"]
+__all__ = ["floats", "indices", "pixels", "rows", "triangles"]
 
 
 def _array(name: str, value: npt.ArrayLike) -> npt.NDArray[Any]:
@@ -61,6 +61,35 @@ def indices(name: str, value: npt.ArrayLike) -> npt.NDArray[Any]:
     if array.dtype.itemsize not in (4, 8):
         array = array.astype(np.int64)
     return _readable(array)
+
+
+def rows(
+    name: str, value: npt.ArrayLike, columns: int, count: int | None = None
+) -> npt.NDArray[Any]:
+    """(N, columns) finite floats; N as many as `count` positions, if that is given."""
+    array = floats(name, value)
+    if array.ndim != 2 or array.shape[1] != columns:
+        raise UsageError(f"{name}: its shape is {array.shape}; pass (N, {columns})")
+    if count is not None and len(array) != count:
+        raise UsageError(f"{name}: there are {len(array)} for {count} positions; pass one for each")
+    if not np.isfinite(array).all():
+        bad = int(np.argwhere(~np.isfinite(array))[0, 0])
+        raise InputError(f"{name}[{bad}]: NaN or infinite; pass finite numbers")
+    return array
+
+
+def triangles(name: str, value: npt.ArrayLike, count: int) -> npt.NDArray[Any]:
+    """(F, 3) indices of `count` vertices."""
+    array = indices(name, value)
+    if array.ndim != 2 or array.shape[1] != 3:
+        raise UsageError(f"{name}: its shape is {array.shape}; pass (F, 3): triangles")
+    if array.size and (array.min() < 0 or array.max() >= count):
+        face = int(np.argwhere((array < 0) | (array >= count))[0, 0])
+        raise InputError(
+            f"{name}[{face}]: {array[face].tolist()} is out of range; there are {count} vertices, "
+            "numbered from 0"
+        )
+    return array
 
 
 def pixels(name: str, value: npt.ArrayLike) -> npt.NDArray[Any]:

@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
-import tempfile
+import uuid
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
-from ._arrays import floats
-from ._arrays import indices as read_indices
-from ._errors import UsageError
+from ._arrays import rows, triangles
 
 __all__ = ["export"]
 
@@ -30,18 +29,14 @@ def export(
 
     Raises ValueError for arrays that cannot be used, OSError if the file cannot be written.
     """
-    points = _rows("positions", positions, 3, None)
+    points = rows("positions", positions, 3)
     text = [_lines("v", points)]
     if normals is not None:
-        text.append(_lines("vn", _rows("normals", normals, 3, len(points))))
+        text.append(_lines("vn", rows("normals", normals, 3, len(points))))
     if uvs is not None:
-        text.append(_lines("vt", _rows("uvs", uvs, 2, len(points))))
+        text.append(_lines("vt", rows("uvs", uvs, 2, len(points))))
     if indices is not None:
-        faces = read_indices("indices", indices)
-        if faces.ndim != 2 or faces.shape[1] != 3:
-            raise UsageError(f"indices: its shape is {faces.shape}; pass (F, 3): triangles")
-        if faces.size and (faces.min() < 0 or faces.max() >= len(points)):
-            raise UsageError(f"indices: some are out of range; there are {len(points)} positions")
+        faces = triangles("indices", indices, len(points))
         corner = {
             (False, False): "%d",
             (True, False): "%d/%d",
@@ -53,33 +48,19 @@ def export(
     _write(os.fspath(path), "".join(text))
 
 
-def _rows(name: str, value: npt.ArrayLike, columns: int, count: int | None) -> npt.NDArray[Any]:
-    array = floats(name, value)
-    if array.ndim != 2 or array.shape[1] != columns:
-        raise UsageError(f"{name}: its shape is {array.shape}; pass (N, {columns})")
-    if count is not None and len(array) != count:
-        raise UsageError(f"{name}: there are {len(array)} for {count} positions; pass one for each")
-    return array
-
-
-def _lines(keyword: str, rows: npt.NDArray[Any]) -> str:
-    line = keyword + " %.9g" * rows.shape[1] + "\n"
-    text: str = (line * len(rows)) % tuple(rows.ravel().tolist())
+def _lines(keyword: str, values: npt.NDArray[Any]) -> str:
+    line = keyword + " %.9g" * values.shape[1] + "\n"
+    text: str = (line * len(values)) % tuple(values.ravel().tolist())
     return text
 
 
 def _write(path: str, text: str) -> None:
-    folder, name = os.path.split(path)
-    with tempfile.NamedTemporaryFile(
-        "w", encoding="ascii", dir=folder or ".", prefix=name + ".", delete=False
-    ) as file:
-        try:
+    beside = f"{path}.{uuid.uuid4().hex[:12]}.tmp"
+    try:
+        with open(beside, "x", encoding="ascii") as file:
             file.write(text)
-            file.close()
-            mask = os.umask(0)
-            os.umask(mask)
-            os.chmod(file.name, 0o666 & ~mask)  # as open() would have made it
-            os.replace(file.name, path)
-        except BaseException:
-            os.unlink(file.name)
-            raise
+        os.replace(beside, path)
+    except BaseException:
+        with contextlib.suppress(FileNotFoundError):
+            os.unlink(beside)
+        raise

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import warnings
 from typing import TYPE_CHECKING, Any, Literal, Mapping, TypedDict
 
 from . import _core
@@ -146,6 +147,8 @@ def pack_settings(options: Mapping[str, Any]) -> _core.PackSettings:
         settings.use_pages_as_needed()
     if settings.method == "lprm02":
         settings.rotations = 1
+        if "rotations" in options:
+            warnings.warn("lprm02 has one orientation a chart, whatever rotations says", stacklevel=4)
     settings.cut = choice("export", options.get("export", "continuous"), "continuous", "cut")
     _refuse_useless(settings, options)
     return settings
@@ -182,7 +185,7 @@ def _refuse_useless(settings: _core.PackSettings, options: Mapping[str, Any]) ->
         )
     if options.get("moves", 0) and "time" in options:
         raise UsageError("time: moves counts instead; give one of them")
-    if options.get("moves", 0) and ("density" in options or options.get("pages", 1) != 1):
+    if options.get("moves", 0) and settings.pages != 1:
         raise UsageError(
             "moves: pages are filled by best fit, which counts no moves; leave it out, or give time"
         )

@@ -60,7 +60,8 @@ class Packing(_core.PackedMesh):
     def wraps(self) -> npt.NDArray[np.bool_]:
         """(charts, 2) bool: does the chart go on over the border of the atlas, along u, along v?
 
-        All False where nothing wraps, and where there are several pages.
+        All False where nothing wraps, and where there are several pages. With export="cut": did it,
+        before it was cut there?
         """
         found: npt.NDArray[np.bool_] = self._wraps.astype(np.bool_)
         return found

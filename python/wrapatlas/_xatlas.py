@@ -10,6 +10,7 @@ from typing import Iterator
 import numpy as np
 import numpy.typing as npt
 
+from ._arrays import rows, triangles
 from ._errors import UsageError
 from ._images import Picture, as_picture
 from ._obj import export
@@ -17,8 +18,6 @@ from ._packing import Packing
 from ._xatlas_meshes import (
     Input,
     Output,
-    checked_rows,
-    checked_triangles,
     divide,
     empty,
     generate,
@@ -53,11 +52,11 @@ class Atlas:
         positions: (N, 3). indices: (F, 3), triangles. normals: (N, 3), not looked at. uvs: (N, 2),
         for ChartOptions.use_input_mesh_uvs. Raises ValueError for arrays that cannot be used.
         """
-        points = checked_rows("positions", positions, 3)
+        points = rows("positions", positions, 3)
         if normals is not None:
-            checked_rows("normals", normals, 3, len(points))
-        coordinates = None if uvs is None else checked_rows("uvs", uvs, 2, len(points))
-        faces = checked_triangles(indices, len(points))
+            rows("normals", normals, 3, len(points))
+        coordinates = None if uvs is None else rows("uvs", uvs, 2, len(points))
+        faces = triangles("indices", indices, len(points))
         self._add(Input(points, faces, coordinates, None, True))
 
     def add_uv_mesh(
@@ -71,8 +70,8 @@ class Atlas:
         uvs: (N, 2). indices: (F, 3). face_materials: (F,) or (F, 1): faces of different ones are of different
         charts. Faces hang together where their UVs are equal.
         """
-        coordinates = checked_rows("uvs", uvs, 2)
-        faces = checked_triangles(indices, len(coordinates))
+        coordinates = rows("uvs", uvs, 2)
+        faces = triangles("indices", indices, len(coordinates))
         materials = None
         if face_materials is not None:
             materials = np.asarray(face_materials)

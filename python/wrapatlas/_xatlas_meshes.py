@@ -10,7 +10,6 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core
-from ._arrays import floats, indices
 from ._errors import InputError, NoPacking, UsageError
 from ._meshes import core_mesh
 from ._packing import Packing, pack, unwrap
@@ -39,35 +38,6 @@ class Output:
     vertex_chart: npt.NDArray[np.uint32]
     face_chart: npt.NDArray[np.uint32]
     materials: npt.NDArray[Any] | None
-
-
-def checked_rows(
-    name: str, value: npt.ArrayLike, columns: int, count: int | None = None
-) -> npt.NDArray[Any]:
-    array = np.asarray(value)
-    if array.ndim != 2 or array.shape[1] != columns:
-        raise UsageError(f"{name}: its shape is {array.shape}; pass (N, {columns})")
-    if count is not None and len(array) != count:
-        raise UsageError(f"{name}: there are {len(array)} for {count} positions; pass one for each")
-    array = floats(name, array)
-    if not np.isfinite(array).all():
-        bad = int(np.argwhere(~np.isfinite(array))[0, 0])
-        raise InputError(f"{name}[{bad}]: NaN or infinite; pass finite numbers")
-    return array
-
-
-def checked_triangles(value: npt.ArrayLike, count: int) -> npt.NDArray[Any]:
-    array = np.asarray(value)
-    if array.ndim != 2 or array.shape[1] != 3:
-        raise UsageError(f"indices: its shape is {array.shape}; pass (F, 3): triangles")
-    array = indices("indices", array)
-    if array.size and (array.min() < 0 or array.max() >= count):
-        face = int(np.argwhere((array < 0) | (array >= count))[0, 0])
-        raise InputError(
-            f"indices[{face}]: {array[face].tolist()} is out of range; there are {count} vertices, "
-            "numbered from 0"
-        )
-    return array
 
 
 def merge(inputs: list[Input], how: ChartOptions) -> _core.Mesh:

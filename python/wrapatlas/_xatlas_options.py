@@ -66,7 +66,8 @@ class PackOptions:
     wrap: str = "none"
     """Ours: "uv": charts may go on over the border, which packs denser; UVs may exceed 1."""
     time: float = DEFAULT_TIME
-    """Ours: seconds to search."""
+    """Ours: seconds to search. With texels_per_unit and no resolution for each of up to 20 sizes
+    that are tried."""
     threads: int = 0
     """Ours: 0: as many as the machine has."""
 

@@ -10,8 +10,7 @@
 namespace wrapatlas {
 
 inline Status check_texture_size(int width, int height) {
-  constexpr int kMostSide = 65536;
-  if (width >= 1 && height >= 1 && width <= kMostSide && height <= kMostSide) return Done{};
+  if (width >= 1 && height >= 1 && width <= kMostTexels && height <= kMostTexels) return Done{};
   return Error{ErrorKind::usage, "size", "a side is not from 1 to 65536 texels", "choose another"};
 }
 

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "pack/names.h"
+#include "names.h"
 
 namespace wrapatlas {
 namespace {

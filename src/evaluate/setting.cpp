@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "pack/names.h"
+#include "names.h"
 
 namespace wrapatlas {
 

@@ -52,7 +52,8 @@ Status check_pages(const PackOptions& options) {
 }
 
 Status check_options(const PackOptions& options) {
-  if (options.width < 1 || options.height < 1 || options.width > 65536 || options.height > 65536) {
+  if (options.width < 1 || options.height < 1 || options.width > kMostTexels ||
+      options.height > kMostTexels) {
     return usage(fmt::format("resolution {} x {} is out of range", options.width, options.height),
                  "use 1 to 65536 texels a side");
   }
@@ -60,7 +61,7 @@ Status check_options(const PackOptions& options) {
     return usage(fmt::format("a padding of {} texels is out of range", options.padding),
                  "use 0 to 4096");
   }
-  if (!(options.margin <= 65536)) {
+  if (!(options.margin <= kMostTexels)) {
     return usage(fmt::format("a margin of {} texels is out of range", options.margin),
                  "use 0 to 65536");
   }

@@ -10,8 +10,6 @@
 namespace wrapatlas {
 namespace {
 
-constexpr int kMostTexels = 65536;
-
 std::optional<double> positive_number(std::string_view text) {
   double value = 0;
   const char* const end = text.data() + text.size();

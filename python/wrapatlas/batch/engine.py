@@ -18,7 +18,7 @@ from typing import Any, Dict, Iterator, List, Optional, Sequence, Tuple
 from . import command, manifest
 from . import recipe as recipes
 from .errors import BatchError, UsageError
-from .files import file_system, is_local, join, local_path, parent
+from .files import file_system, is_local, join, local_path, parent, told
 from .manifest import Asset
 from .page import write_page
 from .progress import Progress
@@ -85,6 +85,8 @@ def run(assets: str, out: str, recipe: str = "unwrap", options: Sequence[str] = 
         raise UsageError("--retries is 0 or more, --workers 1 or more")
     if any(limit is not None and not limit > 0 for limit in (time_limit, memory_limit)):
         raise UsageError("--time-limit and --memory-limit are more than 0")
+    if not is_local(out):
+        file_system(out)  # or it raises what is wrong with that
     home = local_path(out) if is_local(out) else folder  # of what is under way, as output.py has it
     held = contextlib.ExitStack()
     try:
@@ -145,8 +147,9 @@ def publish(paths: List[str], out: str) -> None:
     if is_local(out):
         return
     system, top = file_system(out)
-    for path in paths:
-        system.put_file(path, f"{top}/{os.path.basename(path)}")
+    with told(out):
+        for path in paths:
+            system.put_file(path, f"{top}/{os.path.basename(path)}")
 
 
 @contextlib.contextmanager

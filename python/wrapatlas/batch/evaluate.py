@@ -41,6 +41,13 @@ def evaluate(meshes: str, out: str, methods: List[str], options: List[str], **ba
     if not is_local(out):
         raise UsageError(f"{out}: the results of an evaluation are joined in a local folder")
     out = local_path(out)
+    try:
+        return run_and_join(meshes, out, methods, options, **batch)
+    except OSError as error:
+        raise BatchError(f"{error.filename or out}: {error.strerror or error}; what is done stays done") from error
+
+
+def run_and_join(meshes: str, out: str, methods: List[str], options: List[str], **batch: Any) -> Tuple[Summary, Joined]:
     os.makedirs(out, exist_ok=True)
     recipe, tasks = os.path.join(out, "recipe.json"), os.path.join(out, "tasks.jsonl")
     step = ["bench", "{input}", "-o", "bench", "--methods", "{method}", *options]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import errno
 import importlib
 import json
@@ -10,8 +11,10 @@ import os
 import posixpath
 import re
 import shutil
-from typing import Any, Dict, List, Optional, Tuple
+from typing import Any, Dict, Iterator, List, Optional, Tuple
 from urllib.parse import unquote
+
+from .errors import BatchError, UsageError
 
 fsspec: Any = importlib.import_module("fsspec")  # comes with Dask; it has no types
 
@@ -31,9 +34,22 @@ def local_path(url: str) -> str:
 
 
 def file_system(url: str) -> Tuple[Any, str]:
-    """The file system of a URL, and the path on it."""
-    system, path = fsspec.core.url_to_fs(url)
+    """The file system of a URL, and the path on it. UsageError where there is none for it."""
+    with told(url):
+        system, path = fsspec.core.url_to_fs(url)
     return system, path
+
+
+@contextlib.contextmanager
+def told(url: str) -> Iterator[None]:
+    """What the library of a file system raises, of any kind, as a UsageError that names the URL."""
+    try:
+        yield
+    except BatchError:
+        raise
+    except Exception as error:
+        why = isinstance(error, OSError) and error.strerror or f"{type(error).__name__}: {error}"
+        raise UsageError(f"{url}: {why}") from error
 
 
 def join(folder: str, name: str) -> str:

@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 from typing import Dict, Iterator, Tuple
 
 from .errors import UsageError
-from .files import file_system, fsspec, is_local, join, local_path, parent
+from .files import file_system, fsspec, is_local, join, local_path, parent, told
 
 MODELS = (".obj", ".ply", ".off", ".stl", ".gltf", ".glb")
 UNUSABLE = re.compile(r"[\x00-\x1f\\]")
@@ -59,11 +59,15 @@ def models(folder: str, results: str) -> Iterator[Asset]:
                     yield asset(line, os.path.relpath(path, top), path, {})
         return
     system, top = file_system(folder)
-    for path in system.find(top):
-        if str(path).lower().endswith(MODELS):
-            line += 1
+    other, beyond = (None, "") if not results or is_local(results) else file_system(results)
+    with told(folder):
+        for path in system.find(top):
             name = str(path)[len(top):].lstrip("/")
-            yield asset(line, name, join(folder, name), {})
+            is_result = system is other and str(path).startswith(beyond.rstrip("/") + "/")
+            is_hidden = any(part.startswith(".") for part in name.split("/"))
+            if name.lower().endswith(MODELS) and not is_result and not is_hidden:
+                line += 1
+                yield asset(line, name, join(folder, name), {})
 
 
 def csv_rows(where: str) -> Iterator[Tuple[int, Dict[str, str], str]]:
@@ -93,7 +97,7 @@ def jsonl_rows(where: str) -> Iterator[Tuple[int, Dict[str, str], str]]:
 
 def rows(where: str, found: Iterator[Tuple[int, Dict[str, str], str]]) -> Iterator[Asset]:
     folder = parent(where)
-    try:
+    with told(where):
         for line, row, error in found:
             given = row.pop("input", "")
             name = row.pop("name", "") or default_name(given)
@@ -102,8 +106,6 @@ def rows(where: str, found: Iterator[Tuple[int, Dict[str, str], str]]) -> Iterat
             one = asset(line, name, join(folder, given), row)
             one.error = error or one.error
             yield one
-    except (OSError, UnicodeDecodeError, csv.Error) as problem:
-        raise UsageError(f"{where}: cannot be read ({problem})") from problem
 
 
 def default_name(path: str) -> str:

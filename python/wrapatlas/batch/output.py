@@ -54,7 +54,6 @@ def publish(folder: str, out: str, name: str, record: Dict[str, Any]) -> None:
 
 
 def move(folder: str, place: str, aside: str) -> None:
-    os.chmod(folder, 0o777 & ~current_umask())  # mkdtemp's is for its owner alone
     os.makedirs(os.path.dirname(place), exist_ok=True)
     try:
         # Killed between the two, the asset is not done, and done again by the next run.
@@ -63,12 +62,6 @@ def move(folder: str, place: str, aside: str) -> None:
         os.rename(folder, place)
     finally:
         shutil.rmtree(aside, ignore_errors=True)
-
-
-def current_umask() -> int:
-    mask = os.umask(0)
-    os.umask(mask)
-    return mask
 
 
 def upload(folder: str, place: str) -> None:

@@ -17,7 +17,7 @@ LAUNCH = str(Path(__file__).with_name("launch.py"))
 @dataclass
 class Ended:
     """How a command ended: its exit status, or minus the signal's number; `stopped` is the limit
-    that was passed, `time` or `memory`."""
+    that was passed, `time` or `memory`, or `folder`: it is gone."""
 
     status: int
     seconds: float
@@ -40,7 +40,8 @@ def peak_resident_mb(pid: int) -> float:
 
 def run_limited(command: Sequence[str], folder: str, log: IO[bytes], seconds: Optional[float],
                 memory_mb: Optional[int]) -> Ended:
-    """Runs `command` in `folder`, its output appended to `log`, for at most so long and so large."""
+    """Runs `command` in `folder`, its output appended to `log`, for at most so long and so large, and
+    while there is the folder: that is taken away from those whom the batch does not wait for."""
     begin = time.monotonic()
     launch = [sys.executable, "-I", "-S", LAUNCH, str(os.getpid()), str(memory_mb or 0)]
     process = subprocess.Popen([*launch, *command], cwd=folder, stdin=subprocess.DEVNULL, stdout=log,
@@ -59,6 +60,8 @@ def run_limited(command: Sequence[str], folder: str, log: IO[bytes], seconds: Op
             peak = peak_resident_mb(process.pid) or peak  # 0 when it has just ended
             if memory_mb is not None and peak > memory_mb:
                 stopped = stopped or "memory"
+            if not os.path.isdir(folder):
+                stopped = stopped or "folder"
             if stopped:
                 os.killpg(process.pid, signal.SIGKILL)
             time.sleep(pause)

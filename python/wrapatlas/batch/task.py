@@ -184,6 +184,8 @@ def why(order: Order, ended: Ended, step: str, log: str, begin: int) -> str:
         return f"{step}: over the limit of {order.time_limit:g} s"
     if ended.stopped == "memory":
         return f"{step}: over the limit of {order.memory_mb} MB"
+    if ended.stopped:
+        return f"{step}: the batch ended before it did"
     if ended.status < 0:
         return f"{step}: killed by signal {-ended.status}"
     with open(log, "rb") as file:

@@ -164,8 +164,9 @@ TEST(FreeSpace, EveryVersionFindsAllFreeTranslations) {
         std::vector<std::uint64_t> row(static_cast<std::size_t>(count) + 8, ~std::uint64_t{0});
         const bool any = kernel(boards.fast, probes.all, y, first, count, row.data());
         bool expected_any = false;
-        std::vector<std::uint64_t> open(static_cast<std::size_t>(words_for(words)));
-        const bool any_open = open_words(boards.fast, probes, y, open);
+        const auto open_size = static_cast<std::size_t>(words_for(words));
+        std::vector<std::uint64_t> open(open_size + 1);  // bits_at() reads one more
+        const bool any_open = open_words(boards.fast, probes, y, {open.data(), open_size});
         for (int x = first * kWordBits; x < (first + count) * kWordBits; ++x) {
           const bool expected = x < domain.width && boards.slow.free(piece, x, y);
           const auto word = static_cast<std::size_t>(x / kWordBits - first);

@@ -107,7 +107,10 @@ int run(const CLI::App& app, BakeArguments& a) {
   source.mesh = &high->mesh;
   source.v_points_down = high->v_points_down;
   if (!a.high_hard_edges) source.corner_normals = high->corner_normal;
-  if (!a.hard_edges) a.options.corner_normals = low->corner_normal;
+  if (!a.hard_edges) {
+    a.options.corner_normals = low->corner_normal;
+    a.options.corner_tangents = low->corner_tangent;
+  }
   Texture color;
   if (!a.color.empty()) {
     auto loaded = load_texture(a.color);

@@ -170,7 +170,7 @@ int run(const CLI::App& app, RenderArguments& a) {
   BaseColors own;
   if (a.texture.empty() && !a.no_textures) {
     auto found = base_colors(*model, a.options.threads);
-    if (!found && !a.quiet) {
+    if (!found) {
       say("{}: note: drawn without its textures: {}\n", a.input, found.error().message());
     }
     if (found) own = *std::move(found);
@@ -179,7 +179,10 @@ int run(const CLI::App& app, RenderArguments& a) {
   }
   if (!color.levels.empty()) a.options.color = &color;
   if (!normals.levels.empty()) a.options.normals = &normals;
-  if (!a.hard_edges) a.options.corner_normals = model->corner_normal;
+  if (!a.hard_edges) {
+    a.options.corner_normals = model->corner_normal;
+    a.options.corner_tangents = model->corner_tangent;
+  }
   a.options.v_points_down = model->v_points_down;
   const Rendering rendering = render(model->mesh, a.options);
   std::optional<Likeness> likeness;
@@ -256,7 +259,7 @@ Command make_render_command(CLI::App& parser) {
   add_texcoord(app, a.texcoord);
   add_threads(app, a.options.threads);
   add_json(app, a.json);
-  app.add_flag("--quiet", a.quiet, "No summary");
+  app.add_flag("--quiet", a.quiet, "No summary; what is missing on the picture is still said");
   app.footer(
       "Exit status: 0 written; 2 usage; 3 unusable input or output.\n"
       "Examples:\n"

@@ -176,6 +176,10 @@ int run(SimplifyArguments& arguments) {
   if (!is_unchanged(arguments, report)) {
     model->source.reset();  // a new file: nothing in the old one belongs to these faces
     model->mesh = std::move(made->mesh);
+  } else if (!leaves_nodes_behind(arguments.input, arguments.output)) {
+    load_options.in_scene = false;  // nodes stay, and meshes as they are below them
+    model = load_model(arguments.input, load_options);
+    if (!model) return report_error(model.error());
   }
   const bool has_uvs = !model->mesh.texcoords.empty();
   if (const Status ok = save_model(*model, keep_texcoords(model->mesh), arguments.output); !ok) {

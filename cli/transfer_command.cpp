@@ -38,6 +38,20 @@ std::string picture_path(const std::string& path, std::size_t index, std::size_t
   return numbered.string();
 }
 
+/// Of several atlases pictures have other names than the one that was looked at.
+Status check_pictures(const PackArguments& pack, const Model& model, std::size_t count) {
+  if (pack.image.empty()) return Done{};
+  std::vector<OutputPath> pictures;
+  for (std::size_t i = 0; i < count; ++i) {
+    pictures.push_back({"--image", picture_path(pack.image, i, count)});
+    if (const Status ok = check_writable(pictures.back().path); !ok) return ok;
+  }
+  if (const Status ok = refuse_overwriting(pack.input, model, pictures); !ok) return ok;
+  pictures.push_back({"-o", pack.output});
+  pictures.push_back({"--json", pack.json});
+  return refuse_equal_outputs(pictures);
+}
+
 struct Totals {
   std::size_t images_before = 0, texels_before = 0, images = 0, texels = 0, charts = 0;
 };
@@ -182,6 +196,8 @@ int run(const CLI::App& app, TransferArguments& a) {
     return report_error({ErrorKind::input, pack.input, "no face has a texture on these UVs",
                          "use wrapatlas pack, or another --texcoord"});
   }
+  if (const Status ok = check_pictures(pack, *model, sets.size()); !ok)
+    return report_error(ok.error());
   catch_interrupts();
   std::vector<NewAtlas> atlases;
   for (std::size_t i = 0; i < sets.size(); ++i) {

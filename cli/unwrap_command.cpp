@@ -210,6 +210,10 @@ Command make_unwrap_command(CLI::App& parser) {
       "Join charts beyond --max-stretch until there are no more than this; parts of the "
       "surface that do not touch stay apart, and unions of over 60,000 triangles or that overlap "
       "themselves are not made. 0: no limit");
+  add_number(app, "--max-extent", options.max_extent, {0, 1000},
+             "Cut charts that do not fit into a square of so many times the side of one that has "
+             "the area of the whole surface; an atlas that does not wrap holds long ones badly. 0: "
+             "no limit");
   add_choice(
       app, "--flatten", options.flatten.method, kFlattenMethods,
       "labf: linear angle based flattening (Zayer et al. 2007); lscm: least squares conformal "

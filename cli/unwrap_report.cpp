@@ -56,6 +56,7 @@ Json unwrap_json(const UnwrapOptions& options, const Unwrapping& unwrapping) {
   return {{"faces", unwrapping.face_chart.size()},
           {"max_stretch", options.max_stretch},
           {"stretch_measure", name_of(kStretches, options.stretch)},
+          {"max_extent", options.max_extent},
           {"flatten", name_of(kFlattenMethods, options.flatten.method)},
           {"iterations", options.flatten.iterations},
           {"stretch", {{"l2_max", worst.l2}, {"linf_max", worst.linf}}},

@@ -9,6 +9,7 @@
 
 #include "wrapatlas/mesh.h"
 #include "wrapatlas/result.h"
+#include "wrapatlas/tangents.h"
 #include "wrapatlas/texture.h"
 #include "wrapatlas/transfer.h"
 
@@ -37,6 +38,9 @@ struct BakeOptions {
   /// Of the low mesh, as a renderer has them: per corner, unit, or zero where there is none; may be
   /// empty. Corners without have smooth ones.
   std::span<const Vec3> corner_normals;
+  /// Of the low mesh, per corner, as a renderer has them; may be empty. Corners without have those
+  /// of tangent_frames.
+  std::span<const CornerTangent> corner_tangents;
   double hard_angle = -1;         ///< radians: where the low mesh's normals end, see smooth_normals
   double high_hard_angle = -1;    ///< the same of the high mesh
   int occlusion_rays = 64;        ///< of each sample; 1 to 65536

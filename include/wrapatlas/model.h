@@ -13,6 +13,7 @@
 #include "wrapatlas/mesh.h"
 #include "wrapatlas/model_textures.h"
 #include "wrapatlas/result.h"
+#include "wrapatlas/tangents.h"
 
 namespace wrapatlas {
 
@@ -26,7 +27,7 @@ struct LoadOptions {
   /// The set may also be the one after the last that the primitives have: the mesh has no UVs then,
   /// and save_model adds the set (glTF; the other formats have one, which may always be missing).
   bool may_add_set = false;
-  bool shading = false;  ///< fill Model::corner_normal and Model::corner_color
+  bool shading = false;  ///< fill Model::corner_normal, corner_tangent and corner_color
   /// The mesh is what the scene shows, meshes placed by the nodes that have them (glTF). Not for
   /// models that are to be saved as glTF with all else that they hold.
   bool in_scene = false;
@@ -57,6 +58,8 @@ class Model {
   /// Per corner of the mesh, unit, or zero where there is none; empty: the file has none, or
   /// LoadOptions::shading is off.
   std::vector<Vec3> corner_normal;
+  /// Per corner of the mesh (glTF's TANGENT); empty as above.
+  std::vector<CornerTangent> corner_tangent;
   /// Per corner of the mesh: red, green, blue in linear light; empty as above.
   std::vector<std::array<float, 3>> corner_color;
   FileFormat format = FileFormat::obj;

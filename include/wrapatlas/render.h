@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "wrapatlas/mesh.h"
+#include "wrapatlas/tangents.h"
 #include "wrapatlas/texture.h"
 #include "wrapatlas/transfer.h"
 
@@ -34,9 +35,10 @@ struct RenderOptions {
   const Mesh* framed =
       nullptr;  ///< cameras are set up to fit this mesh, if not the one that is drawn
   Shading shading = Shading::smooth;
-  std::span<const Vec3> corner_normals;  ///< the mesh's own, as in BakeOptions
-  double hard_angle = -1;                ///< radians: where smooth normals end, see smooth_normals
-  const MipMaps* color = nullptr;        ///< linear light; without it the model is light grey
+  std::span<const Vec3> corner_normals;            ///< the mesh's own, as in BakeOptions
+  std::span<const CornerTangent> corner_tangents;  ///< the same
+  double hard_angle = -1;          ///< radians: where smooth normals end, see smooth_normals
+  const MipMaps* color = nullptr;  ///< linear light; without it the model is light grey
   /// In place of `color`, if there are any: colours per group of faces (without maps: the factor,
   /// or light grey), and per face its group.
   std::span<const GroupColor> group_colors;

@@ -16,6 +16,12 @@ using CornerVectors = std::vector<Vec3>;
 /// end at that edge; < 0: nowhere. O(n log n).
 CornerVectors smooth_normals(const Mesh& mesh, double hard_angle = -1);
 
+/// The u axis of tangent space at a corner, and whether UVs are mirrored there (-1).
+struct CornerTangent {
+  Vec3 direction;  ///< unit, or zero: none
+  float sign = 1;
+};
+
 /// The axes of tangent space at each corner: u, bitangent = sign * cross(normal, tangent), normal.
 struct TangentFrames {
   CornerVectors normal, tangent;

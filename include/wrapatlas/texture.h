@@ -57,7 +57,6 @@ enum class MipFilter {
 struct MipMaps {
   std::vector<Texture> levels;  ///< level 0 is the texture
 };
-/// `threads` here and below: 0: as many as there are; the result does not depend on it.
 MipMaps make_mip_maps(Texture texture, MipFilter filter);
 
 /// Trilinear: between the two levels next to `level` (0: the texture itself), bilinear in each.
@@ -65,7 +64,8 @@ TextureValue sample_trilinear(const MipMaps& maps, Vec2 uv, double level, Wrap w
 
 /// Gives every texel outside the mask the value of the one inside that is nearest (Euclidean, from
 /// centre to centre; over the border on axes that wrap; which of equals is not said, but always the
-/// same). With none inside all stays as it is. O(texels).
+/// same). With none inside all stays as it is. `threads` here and below: 0: as many as there are;
+/// the result does not depend on it. O(texels).
 void dilate(Texture& texture, const TexelMask& inside, Wrap wrap, int threads = 0);
 
 /// sRGB and linear light, both in [0, 1] (IEC 61966-2-1); outside it they go on alike.

@@ -30,6 +30,10 @@ struct UnwrapOptions {
   /// none can be: pieces of surface that do not touch, unions of more than 60,000 triangles, those
   /// that overlap themselves when they are flat.
   std::uint32_t max_charts = 0;
+  /// If > 0: no chart, but one of a single face, is longer than what fits into a square of this
+  /// times the side of one that has the area of the whole surface. Without wrap a square atlas
+  /// with a chart of extent e cannot be used to more than 1/e^2.
+  double max_extent = 0;
   SurfaceOptions surface;
   FlattenOptions flatten;
   int threads = 0;  ///< 0: as many as the machine has; the result does not depend on it

@@ -82,6 +82,8 @@ void bind_unwrap_settings(nb::module_& module) {
              [](UnwrapSettings & s) -> auto& { return s.options.max_stretch; }, {1, 1000});
   add_number(settings, "max_charts",
              [](UnwrapSettings & s) -> auto& { return s.options.max_charts; }, {0, 1e9, "charts"});
+  add_number(settings, "max_extent",
+             [](UnwrapSettings & s) -> auto& { return s.options.max_extent; }, {0, 1000});
   add_number(settings, "iterations",
              [](UnwrapSettings & s) -> auto& { return s.options.flatten.iterations; },
              {1, kMostIterations});

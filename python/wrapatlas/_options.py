@@ -54,6 +54,7 @@ class UnwrappingOptions(PackingOptions, total=False):
     max_stretch: float
     stretch: Literal["l2", "linf"]
     max_charts: int
+    max_extent: float
     flatten: Literal["labf", "lscm"]
     iterations: int
     hard_edges: float
@@ -68,8 +69,8 @@ _PLAIN = (
     "check",
 )  # fmt: skip
 _UNWRAP = (
-    "max_stretch", "stretch", "max_charts", "flatten", "iterations", "hard_edges", "keep_seams",
-    "split_materials",
+    "max_stretch", "stretch", "max_charts", "max_extent", "flatten", "iterations", "hard_edges",
+    "keep_seams", "split_materials",
 )  # fmt: skip
 _OTHERS = (
     "resolution", "aspect", "wrap", "export", "padding", "pages", "udim", "method", "progress",

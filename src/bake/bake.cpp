@@ -27,6 +27,9 @@ Status check_arrays(const Mesh& low, const BakeSource& high, const BakeOptions& 
       !fits(high.corner_normals.size(), high.mesh->corner_count())) {
     return usage("corner normals", "not one for each corner", "pass one for each, or none");
   }
+  if (!fits(o.corner_tangents.size(), low.corner_count())) {
+    return usage("corner tangents", "not one for each corner", "pass one for each, or none");
+  }
   if (!fits(high.corner_color.size(), high.mesh->corner_count())) {
     return usage("corner colours", "not one for each corner", "pass one for each, or none");
   }
@@ -166,8 +169,10 @@ Result<BakeResult> bake(const Mesh& low, const BakeSource& high, std::span<const
       HighSurface::build(high_triangles, high, options.high_hard_angle, threads);
   if (!high_surface) return high_surface.error();
   const LowSurface low_surface(
-      low_triangles.mesh, corner_normals(low_triangles, options.corner_normals, options.hard_angle),
-      options.v_points_down);
+      low_triangles.mesh,
+      corner_frames(low_triangles,
+                    corner_normals(low_triangles, options.corner_normals, options.hard_angle),
+                    options.corner_tangents, options.v_points_down));
   set_box(low, *high.mesh, result);
   if (Status ok = check_places(result, high_surface->scene()); !ok) return ok.error();
   result.distance = options.distance > 0

@@ -159,7 +159,7 @@ void Baker::report(std::size_t done) {
   if (!scene_.options.progress) return;
   const std::unique_lock lock(mutex_, std::try_to_lock);
   if (!lock) return;
-  const double all = 2 * double(scene_.samples.band_count());
+  const auto all = double(scene_.samples.band_count() + scene_.bleed.band_count());
   if (!scene_.options.progress(double(done) / all)) stopped_ = true;
 }
 

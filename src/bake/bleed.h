@@ -36,6 +36,8 @@ class Bleed {
     if (walk_) outermost_[band].push_back({texel, sample, to_centre});
   }
 
+  /// Bands that for_each goes through.
+  [[nodiscard]] std::size_t band_count() const { return walk_ ? outermost_.size() : 0; }
   /// Calls visit(texel, place) for the texels that are not `reached`, but lie near enough, and
   /// go_on() after each band; false: no further. Threads share them.
   void for_each(const TexelMask& reached, int threads,

@@ -73,7 +73,7 @@ TextureValue HighSurface::texture_color(const HighPoint& point) const {
   Vec2 uv;
   for (std::size_t i = 0; i < 3; ++i) {
     const std::uint32_t at = mesh_->corner_texcoord[3 * std::size_t{point.triangle} + i];
-    if (at == kNone) return {};
+    if (at == kNone) return corner_color(point);
     uv = uv + point.weights[i] * mesh_->texcoords[at];
   }
   if (!source_->v_points_down) uv.y = 1 - uv.y;

@@ -17,9 +17,9 @@ struct LowPoint {
 
 class LowSurface {
  public:
-  /// `normals`: per corner of the triangles.
-  LowSurface(const Mesh& triangles, CornerVectors normals, bool v_points_down)
-      : mesh_(triangles), frames_(tangent_frames(triangles, std::move(normals), v_points_down)) {}
+  /// `frames`: per corner of the triangles.
+  LowSurface(const Mesh& triangles, TangentFrames frames)
+      : mesh_(triangles), frames_(std::move(frames)) {}
 
   /// `on_texels`: the triangle's corners in texels (TexelSamples::corners).
   [[nodiscard]] LowPoint at(const TexelSample& sample, const std::array<Vec2, 3>& on_texels) const;

@@ -188,9 +188,10 @@ TextureValue Resampler::turned(const TextureValue& value, const Axes& from, cons
   return result;
 }
 
-// Each band comes twice: what lies beyond borders is filled later.
+// What lies beyond borders is filled later, band by band.
 void Resampler::report(std::size_t done, std::size_t all) {
-  const double share = double(++bands_done_) / (2 * double(samples_.band_count()));
+  const auto bands = double(samples_.band_count() + bleed_.band_count());
+  const double share = double(++bands_done_) / bands;
   if (!options_.progress) return;
   const std::unique_lock lock(mutex_, std::try_to_lock);
   if (lock && !options_.progress((double(done) + share) / double(all))) stopped_ = true;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include "mesh/select_faces.h"
@@ -73,26 +74,53 @@ class Looks {
   std::map<std::uint32_t, std::uint32_t> of_material_;
 };
 
+/// Channels that hold what textures of so many hold.
+class Channels {
+ public:
+  void add(int channels) {
+    has_color_ = has_color_ || channels >= 3;
+    has_alpha_ = has_alpha_ || channels % 2 == 0;
+  }
+  [[nodiscard]] int count() const { return (has_color_ ? 3 : 1) + (has_alpha_ ? 1 : 0); }
+
+ private:
+  bool has_color_ = false, has_alpha_ = false;
+};
+
+/// "bump", or "bump-2" if there is one of that name.
+std::string unused_name(const std::string& name, std::span<const SetTexture> taken) {
+  std::string result = name;
+  for (int number = 2; std::any_of(taken.begin(), taken.end(),
+                                   [&](const SetTexture& one) { return one.name == result; });
+       ++number) {
+    result = fmt::format("{}-{}", name, number);
+  }
+  return result;
+}
+
 /// The textures that groups of these looks need together.
 std::vector<SetTexture> textures_for(std::span<const std::uint32_t> group_look, const Looks& looks,
                                      const ModelTextures& textures) {
   struct At {
     std::size_t group, use;
   };
-  std::map<std::string, std::vector<At>> places;        // one use for each group
-  std::map<std::string, std::vector<std::size_t>> all;  // those of all materials
+  // At one place materials may have different things: an OBJ's bump is heights or normals.
+  using Slot = std::pair<std::string, TextureRole>;
+  std::map<Slot, std::vector<At>> slots;         // one use for each group
+  std::map<Slot, std::vector<std::size_t>> all;  // those of all materials
   for (std::size_t group = 0; group < group_look.size(); ++group) {
     const Look& look = looks[group_look[group]];
     for (std::size_t i = 0; i < look.uses.size(); ++i) {
-      const std::string& place = textures.uses[look.uses[i]].place;
-      if (i < look.uses_of_one) places[place].push_back({group, look.uses[i]});
-      all[place].push_back(look.uses[i]);
+      const TextureUse& use = textures.uses[look.uses[i]];
+      const Slot slot{use.place, use.role};
+      if (i < look.uses_of_one) slots[slot].push_back({group, look.uses[i]});
+      all[slot].push_back(look.uses[i]);
     }
   }
   std::map<std::string, std::size_t> known;
   std::vector<SetTexture> result;
-  for (const auto& [place, at] : places) {
-    const TextureRole role = textures.uses[at.front().use].role;
+  for (const auto& [slot, at] : slots) {
+    const auto& [place, role] = slot;
     std::string key = std::to_string(static_cast<int>(role));
     for (const At& one : at) {
       const TextureUse& use = textures.uses[one.use];
@@ -103,16 +131,19 @@ std::vector<SetTexture> textures_for(std::span<const std::uint32_t> group_look, 
     const auto [found, is_new] = known.try_emplace(key, result.size());
     if (is_new) {
       TransferTarget target{role, 1, std::vector<TransferSource>(group_look.size())};
+      Channels channels;
       for (const At& one : at) {
         TransferSource& source = target.of_group[one.group];
         source = textures.uses[one.use].source;
         source.texture = &textures.images[textures.uses[one.use].image];
-        target.channels = std::max(target.channels, source.texture->channels);
+        channels.add(source.texture->channels);
       }
-      result.push_back({std::move(target), place.substr(place.rfind('/') + 1), {}});
+      target.channels = channels.count();
+      const std::string name = unused_name(place.substr(place.rfind('/') + 1), result);
+      result.push_back({std::move(target), name, {}});
     }
     std::vector<std::size_t>& uses = result[found->second].uses;
-    uses.insert(uses.end(), all[place].begin(), all[place].end());
+    uses.insert(uses.end(), all[slot].begin(), all[slot].end());
   }
   return result;
 }
@@ -172,19 +203,31 @@ std::vector<TextureSet> texture_sets(const Mesh& mesh, std::span<const std::uint
 
 Mesh mesh_in_texels(const TextureSet& set) {
   Mesh mesh = set.mesh;
-  double farthest = 1;
-  for (const Vec2 uv : mesh.texcoords) {
-    farthest = std::max({farthest, std::abs(uv.x), std::abs(uv.y)});
+  struct Extent {
+    double begin = std::numeric_limits<double>::infinity(), end = -begin;
+  };
+  std::vector<Extent> columns(set.texels.size());  // that each group covers
+  for (std::uint32_t face = 0; face < mesh.face_count(); ++face) {
+    const std::uint32_t group = set.group[face];
+    Extent& extent = columns[group];
+    for (std::uint32_t c = mesh.face_begin[face]; c < mesh.face_begin[face + 1]; ++c) {
+      const double x = set.texels[group].x * mesh.texcoords[mesh.corner_texcoord[c]].x;
+      extent = {std::min(extent.begin, x), std::max(extent.end, x)};
+    }
+  }
+  std::vector<double> shift(columns.size(), 0);
+  for (std::size_t group = 1; group < columns.size(); ++group) {
+    const Extent& before = columns[group - 1];
+    shift[group] = before.end + shift[group - 1] + 1 - columns[group].begin;
   }
   mesh.texcoords.clear();
   for (std::uint32_t face = 0; face < mesh.face_count(); ++face) {
     const std::uint32_t group = set.group[face];
     const Vec2 size = set.texels[group];
-    const double apart = 3 * farthest * group;
     for (std::uint32_t c = mesh.face_begin[face]; c < mesh.face_begin[face + 1]; ++c) {
       const Vec2 uv = set.mesh.texcoords[mesh.corner_texcoord[c]];
       mesh.corner_texcoord[c] = static_cast<std::uint32_t>(mesh.texcoords.size());
-      mesh.texcoords.push_back({size.x * (uv.x + apart), size.y * uv.y});
+      mesh.texcoords.push_back({size.x * uv.x + shift[group], size.y * uv.y});
     }
   }
   return mesh;

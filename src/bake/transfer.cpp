@@ -58,6 +58,7 @@ Result<std::vector<Texture>> transfer(const Mesh& before, const Mesh& after,
   drop_faces_without_uv(from, to);
   const TexelSamples samples(to.mesh, options.width, options.height, options.wrap,
                              options.v_points_down, 1);
+  if (const Status ok = check_samples(samples, to, "after"); !ok) return ok.error();
   auto bleed =
       Bleed::build(to.mesh, samples, options.width, options.height, options.wrap, options.bleed);
   if (!bleed) return bleed.error();

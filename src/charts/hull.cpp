@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numbers>
 
 namespace wrapatlas {
 namespace {
@@ -117,6 +119,20 @@ double smallest_box_direction(std::span<const Vec2> hull) {
     }
   }
   return direction;
+}
+
+double square_side(std::span<const Vec2> hull) {
+  if (hull.empty()) return 0;
+  constexpr int kAngles = 256;  // of a quarter turn: half a step changes a side by 0.3 %
+  double side = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < kAngles; ++i) {
+    const double angle = i * (std::numbers::pi / 2 / kAngles);
+    const Vec2 x{std::cos(angle), std::sin(angle)}, y{-x.y, x.x};
+    Box2 box;
+    for (const Vec2 corner : hull) box.add({dot(corner, x), dot(corner, y)});
+    side = std::min(side, std::max(box.size().x, box.size().y));
+  }
+  return side;
 }
 
 }  // namespace wrapatlas

@@ -22,4 +22,7 @@ double diameter_direction(std::span<const Vec2> hull);
 /// has a side along an edge of the hull (Freeman & Shapira 1975). By rotating calipers, O(corners).
 double smallest_box_direction(std::span<const Vec2> hull);
 
+/// Side of a square around a hull, at most 0.4 % larger than that of the smallest one. O(corners).
+double square_side(std::span<const Vec2> hull);
+
 }  // namespace wrapatlas

@@ -1,3 +1,4 @@
+#include <cctype>
 #include <utility>
 
 #include "wrapatlas/model.h"
@@ -6,10 +7,10 @@
 namespace wrapatlas {
 
 bool is_base_color(std::string_view place) {
-  for (const char* name : {"baseColorTexture", "diffuseTexture", "map_Kd"}) {
-    if (place.ends_with(name)) return true;
-  }
-  return false;
+  std::string keyword(place);  // an OBJ's counts in any case
+  for (char& c : keyword) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return place.ends_with("baseColorTexture") || place.ends_with("diffuseTexture") ||
+         keyword == "map_kd";
 }
 
 namespace {

@@ -9,6 +9,7 @@
 
 #include "io/file.h"
 #include "io/gltf_references.h"
+#include "io/gltf_shading.h"
 #include "io/gltf_textures.h"
 
 namespace wrapatlas {
@@ -67,6 +68,13 @@ TransferSource source_of(const Json& json, const GltfTextureUse& use) {
   return source;
 }
 
+constexpr std::string_view kMaterials = "/materials/";
+
+/// Of a path that begins with it, as those of all uses do.
+std::size_t material_of(const std::string& path) {
+  return std::stoul(path.substr(kMaterials.size()));
+}
+
 class ImageReader {
  public:
   ImageReader(const GltfContents& contents, bool base_colors_alone)
@@ -74,7 +82,7 @@ class ImageReader {
 
   Result<ModelTextures> read() {
     for (const GltfTextureUse& use : uses_that_follow(contents_)) {
-      if (base_colors_alone_ && !is_base_color(use.where.to_string())) continue;
+      if (base_colors_alone_ && !colors_material(use)) continue;
       if (Status ok = add(use); !ok) return ok.error();
     }
     for (const GltfPrimitive& primitive : contents_.primitives) {
@@ -120,12 +128,17 @@ class ImageReader {
       return file_.error(place, "its KHR_texture_transform is out of range", "export it again");
     }
     const std::string path = use.where.to_string();  // "/materials/3/normalTexture"
-    const std::size_t begin = path.find('/', std::string("/materials/").size());
-    const auto material =
-        static_cast<std::uint32_t>(std::stoul(path.substr(std::string("/materials/").size())));
-    textures_.uses.push_back(
-        {material + 1, path.substr(begin + 1), role_of(path), found->second, source});
+    const std::size_t begin = path.find('/', kMaterials.size());
+    textures_.uses.push_back({static_cast<std::uint32_t>(material_of(path) + 1),
+                              path.substr(begin + 1), role_of(path), found->second, source});
     return Done{};
+  }
+
+  [[nodiscard]] bool colors_material(const GltfTextureUse& use) const {
+    const std::string path = use.where.to_string();
+    if (!is_base_color(path)) return false;
+    const Json& material = array_member(file_.json, "materials")[material_of(path)];
+    return path.ends_with("diffuseTexture") == (specular_glossiness(material) != nullptr);
   }
 
   /// Where its bytes are: entries that name the same ones are one picture.

@@ -149,6 +149,11 @@ void append(const Model& from, const GltfPrimitive& primitive, const NodePlace& 
         const Vec3& n = from.corner_normal[c];
         to.corner_normal.push_back(unit((at.mirrors() ? -1.0 : 1.0) * at.normal(n)));
       }
+      if (!from.corner_tangent.empty()) {
+        const CornerTangent& own = from.corner_tangent[c];
+        const float sign = at.mirrors() ? -own.sign : own.sign;
+        to.corner_tangent.push_back({unit(at.turned(own.direction)), sign});
+      }
       if (!from.corner_color.empty()) to.corner_color.push_back(from.corner_color[c]);
     }
     mesh.face_begin.push_back(static_cast<std::uint32_t>(mesh.corner_position.size()));
@@ -181,6 +186,7 @@ Status place_in_scene(const GltfContents& contents, Model& model) {
   model.mesh = std::move(placed.mesh);
   model.face_material = std::move(placed.face_material);
   model.corner_normal = std::move(placed.corner_normal);
+  model.corner_tangent = std::move(placed.corner_tangent);
   model.corner_color = std::move(placed.corner_color);
   return Done{};
 }

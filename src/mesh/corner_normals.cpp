@@ -1,6 +1,7 @@
 #include "mesh/corner_normals.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace wrapatlas {
 
@@ -18,6 +19,19 @@ CornerVectors corner_normals(const Triangulated& triangles, std::span<const Vec3
     if (!has_none(own)) normals[c] = own;
   }
   return normals;
+}
+
+TangentFrames corner_frames(const Triangulated& triangles, CornerVectors normals,
+                            std::span<const CornerTangent> given, bool v_points_down) {
+  TangentFrames frames = tangent_frames(triangles.mesh, std::move(normals), v_points_down);
+  if (given.empty()) return frames;
+  for (std::size_t c = 0; c < frames.tangent.size(); ++c) {
+    const CornerTangent& own = given[triangles.corner_source[c]];
+    if (own.direction == Vec3{}) continue;
+    frames.tangent[c] = own.direction;
+    frames.sign[c] = own.sign;
+  }
+  return frames;
 }
 
 }  // namespace wrapatlas

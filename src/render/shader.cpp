@@ -24,7 +24,10 @@ Shader::Shader(const Triangulated& triangles, const RenderOptions& options)
   if (options.shading == Shading::smooth || mapped) {
     frames_.normal = corner_normals(triangles, options.corner_normals, options.hard_angle);
   }
-  if (mapped) frames_ = tangent_frames(mesh_, frames_.normal, options.v_points_down);
+  if (mapped) {
+    frames_ = corner_frames(triangles, std::move(frames_.normal), options.corner_tangents,
+                            options.v_points_down);
+  }
 }
 
 std::array<float, 3> Shader::color(std::uint32_t triangle, const Weights& weights,

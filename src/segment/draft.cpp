@@ -5,6 +5,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "charts/hull.h"
 #include "mesh/polygon_plane.h"
 #include "parameterize/untangle.h"
 #include "segment/seams.h"
@@ -46,6 +47,12 @@ bool is_unflipped(const Draft& draft) { return !draft.uv.empty() && draft.distor
 bool within_limits(const Draft& draft, const UnwrapOptions& options) {
   return is_unflipped(draft) && !is_stretched(draft, options) &&
          !border_crosses(draft.uv, draft.disc.triangles);
+}
+
+/// Longer than a square atlas should have to hold; options.max_extent says when.
+bool is_long(const Draft& draft, const FaceShapes& shapes, const UnwrapOptions& options) {
+  if (options.max_extent == 0) return false;
+  return square_side(convex_hull(draft.uv)) > options.max_extent * std::sqrt(shapes.whole_area);
 }
 
 /// A single face needs no solver: it is seen along its normal. Of no area it is a dot.
@@ -104,7 +111,7 @@ Draft make_draft(const Surface& surface, const Region& region, const FaceShapes&
     draft.disc = cut_to_disc(surface, region, shapes, draft.seams);
     flatten_draft(draft, options);
   }
-  draft.is_good = within_limits(draft, options);
+  draft.is_good = within_limits(draft, options) && !is_long(draft, shapes, options);
   return draft;
 }
 

@@ -18,6 +18,7 @@ FaceShapes face_shapes(const Surface& surface) {
     };
     const Vec3 normal = newell_normal(size, point);
     shapes.area[face] = 0.5 * length(normal);
+    shapes.whole_area += shapes.area[face];
     shapes.normal[face] = unit(normal);
     Vec3 sum;
     for (std::uint32_t i = 0; i < size; ++i) sum = sum + point(i);

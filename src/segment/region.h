@@ -14,6 +14,7 @@ struct FaceShapes {
   std::vector<Vec3> normal;  ///< of length 1, or 0 for a face of no area
   std::vector<Vec3> centroid;
   std::vector<double> area;
+  double whole_area = 0;  ///< of all faces
 };
 FaceShapes face_shapes(const Surface& surface);
 

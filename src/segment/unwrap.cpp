@@ -20,6 +20,10 @@ Status check_options(const UnwrapOptions& options) {
     return Error{ErrorKind::usage, "max stretch", "no chart has less than 1",
                  "pass 1 or more; 2 is usual"};
   }
+  if (!(options.max_extent >= 0)) {
+    return Error{ErrorKind::usage, "max extent", "it cannot be negative",
+                 "pass 0 for charts of any length, or 1 or more"};
+  }
   if (options.flatten.iterations < 1 || options.flatten.iterations > kMostIterations) {
     return Error{ErrorKind::usage, "iterations", "it must be from 1 to 20", "leave it at 2"};
   }

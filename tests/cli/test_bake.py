@@ -1,12 +1,13 @@
 """wrapatlas bake: maps of a detailed model on the atlas of a simpler one."""
 
 import json
+import math
 import struct
 import unittest
 
 import gltf_maker
 import support
-from png_files import read_png
+from png_files import read_png, rgb_png
 
 SQUARE = """v 0 0 0
 v 1 0 0
@@ -22,7 +23,7 @@ f 1/1 2/2 3/3 4/4
 TILTED = "v -1 -1 -0.7\nv 2 -1 1.55\nv 2 2 1.55\nv -1 2 -0.7\nf 1 2 3 4\n"
 
 
-def one_colour(factor, textured=False, **node):
+def one_colour(factor, textured=False, tangent=None, diffuse=None, **node):
     """The square, of a material with a factor."""
     made = gltf_maker.GltfMaker()
     corners = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)]
@@ -31,10 +32,15 @@ def one_colour(factor, textured=False, **node):
     else:
         made.json["materials"] = [{"pbrMetallicRoughness": {}}]
     made.json["materials"][0]["pbrMetallicRoughness"]["baseColorFactor"] = factor
-    made.node(mesh=made.mesh({
-        "attributes": {"POSITION": made.positions(corners),
-                       "TEXCOORD_0": made.accessor([(x, y) for x, y, _ in corners])},
-        "indices": made.indices([0, 1, 2, 0, 2, 3]), "material": 0}), **node)
+    if diffuse:
+        made.json["materials"][0]["extensions"] = {
+            "KHR_materials_pbrSpecularGlossiness": {"diffuseFactor": diffuse}}
+    attributes = {"POSITION": made.positions(corners),
+                  "TEXCOORD_0": made.accessor([(x, y) for x, y, _ in corners])}
+    if tangent:
+        attributes["TANGENT"] = made.accessor([tangent] * 4)
+    made.node(mesh=made.mesh({"attributes": attributes, "material": 0,
+                              "indices": made.indices([0, 1, 2, 0, 2, 3])}), **node)
     return made.glb()
 
 
@@ -56,6 +62,22 @@ class Bake(support.CommandTest):
             self.assertEqual((width, height, bits, channels), (16, 8, 8, 3))
             for value, expected in zip(rows[4][:3], (0.2 * 255, 127.5, 0.9 * 255)):
                 self.assertAlmostEqual(value, expected, delta=1)
+
+    def test_along_the_tangents_of_the_file(self):
+        """A viewer uses them as they are, whatever the UVs. The plane's normal is (-0.6, 0, 0.8)."""
+        for tangent, node, stored in (
+                ((0, 1, 0, 1), {}, (0, 0.6, 0.8)), ((0, 1, 0, -1), {}, (0, -0.6, 0.8)),
+                ((1, 0, 0, 1), {"rotation": (0, 0, math.sqrt(0.5), math.sqrt(0.5)),
+                                "translation": (1, 0, 0)}, (0, 0.6, 0.8)),
+                ((1, 0, 0, 1), {"scale": (-1, 1, 1), "translation": (1, 0, 0)}, (0.6, 0, 0.8))):
+            self.write("low.glb", one_colour((1, 1, 1, 1), tangent=tangent, **node))
+            self.bake("--resolution", 8, low="low.glb")
+            pixel = read_png(self.path("n.png"))[4][3][:3]
+            for value, expected in zip(pixel, stored):
+                self.assertAlmostEqual(value, 127.5 * (1 + expected), delta=1.5, msg=str(tangent))
+        self.write("low.glb", one_colour((1, 1, 1, 1), tangent=(0, 1, 0, 1)))
+        self.bake("--resolution", 8, "--hard-edges", 60, low="low.glb")  # its own axes are not wanted
+        self.assertAlmostEqual(read_png(self.path("n.png"))[4][3][0], 0.2 * 255, delta=1)
 
     def test_sixteen_bits(self):
         self.bake("--map", "object", "--resolution", 8, "--bits", 16)
@@ -121,6 +143,30 @@ class Bake(support.CommandTest):
         for high, colour in (("same.obj", (255, 255, 255)), ("same.glb", (255, 128, 0))):
             self.bake("--map", "color", "--resolution", 8, high=high)
             self.assertEqual(tuple(read_png(self.path("n.png"))[4][3][:3]), colour, high)
+
+    def test_one_colour_of_a_gltf_material_that_has_two(self):
+        self.write("same.glb", one_colour((0, 0, 1, 1), textured=True, diffuse=(1, 0.2158605, 0, 1)))
+        self.bake("--map", "color", "--resolution", 8, high="same.glb")
+        self.assertEqual(tuple(read_png(self.path("n.png"))[4][3][:3]), (255, 128, 0))
+
+    def test_keywords_of_an_obj_in_any_case(self):
+        self.write("red.png", rgb_png(1, 1, lambda x, y: (255, 0, 0)))
+        self.write("same.obj", "mtllib a.mtl\nusemtl a\n" + SQUARE)
+        self.write("a.mtl", "newmtl a\nkd 0 1 0\nmap_kd red.png\n")
+        self.bake("--map", "color", "--resolution", 8, high="same.obj")
+        self.assertEqual(tuple(read_png(self.path("n.png"))[4][3][:3]), (255, 0, 0))
+
+    def test_faces_without_uvs_below_a_texture(self):
+        """They have the colours of their vertices."""
+        self.write("red.png", rgb_png(1, 1, lambda x, y: (255, 0, 0)))
+        self.write("a.mtl", "newmtl a\nmap_Kd red.png\n")
+        self.write("high.obj", "mtllib a.mtl\nusemtl a\nvt 0 0\n" + "".join(
+            f"v {x} {y} 0 0 0 1\n" for x, y in ((0, 0), (1, 0), (1, 1), (0, 1)))
+            + "f 1/1 2/1 3/1\nf 1 3 4\n")
+        self.bake("--map", "color", "--resolution", 8)
+        rows = read_png(self.path("n.png"))[4]
+        self.assertEqual(tuple(rows[6][18:21]), (255, 0, 0))
+        self.assertEqual(tuple(rows[1][3:6]), (0, 0, 255))
 
     def test_models_that_do_not_lie_over_each_other(self):
         self.write("far.obj", TILTED.replace("v -1", "v 9").replace("v 2", "v 12"))

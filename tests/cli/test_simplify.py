@@ -1,5 +1,6 @@
 """`wrapatlas simplify`: fewer triangles, the same shape, and what cannot be kept is told."""
 
+import json
 import os
 import pathlib
 import pty
@@ -7,6 +8,7 @@ import signal
 import subprocess
 import unittest
 
+import gltf_maker
 import support
 from support import COMMAND, obj_lines
 
@@ -37,9 +39,30 @@ def counts(path):
     return len(obj_lines(text, "v")), len(obj_lines(text, "f"))
 
 
+def shown_twice():
+    """A triangle that two nodes show."""
+    made = gltf_maker.GltfMaker()
+    mesh = made.mesh({"attributes": {"POSITION": made.positions([(0, 0, 0), (1, 0, 0), (0, 1, 0)])}})
+    made.node(mesh=mesh)
+    made.node(mesh=mesh, translation=[0, 0, 5])
+    return made
+
+
 class Simplify(support.CommandTest):
     def simplify(self, source, output, faces, *options):
         return self.report("simplify", source, "-o", output, "--faces", faces, "--quiet", *options)
+
+    def test_what_has_few_faces_stays_as_it_is(self):
+        made = shown_twice()
+        self.write("in.glb", made.glb())
+        report = self.simplify("in.glb", "out.glb", 1000)
+        self.assertEqual((report["faces_before"], report["faces"]), (2, 2))
+        data = self.path("out.glb").read_bytes()
+        document = json.loads(data[20:20 + int.from_bytes(data[12:16], "little")])
+        for key in ("nodes", "meshes", "scenes"):
+            self.assertEqual(document[key], made.json[key])
+        self.simplify("in.glb", "out.obj", 1000)  # which has no nodes
+        self.assertEqual(counts(self.path("out.obj")), (6, 2))
 
     def test_a_share_or_a_number(self):
         source = self.sample("knot.off")

@@ -175,6 +175,20 @@ class Transfer(support.CommandTest):
         self.assertEqual([gltf["images"][gltf["textures"][index]["source"]]["name"]
                           for index in indices], ["1-baseColorTexture", "2-baseColorTexture"])
 
+    def test_pictures_of_several_atlases_overwrite_no_input(self):
+        self.two_materials()
+        gltf, binary = parts(self.path("a.glb"))
+        view = gltf["bufferViews"][gltf["images"][0].pop("bufferView")]
+        gltf["images"][0] = {"uri": "atlas-1.png"}
+        picture = binary[view["byteOffset"]:view["byteOffset"] + view["byteLength"]]
+        self.write("atlas-1.png", picture)
+        self.write("c.bin", binary)
+        self.write("c.gltf", json.dumps({**gltf, "buffers": [{**gltf["buffers"][0], "uri": "c.bin"}]}))
+        self.refuse(2, ("atlas-1.png",), "transfer", "c.gltf", "-o", "d.glb", "--image", "atlas.png")
+        self.assertEqual(self.path("atlas-1.png").read_bytes(), picture)
+        self.refuse(2, ("atlas-2.png",), "transfer", "a.glb", "-o", "d.glb", "--image", "atlas.png",
+                    "--json", "atlas-2.png")
+
     def test_materials_with_the_same_textures_share_an_atlas(self):
         self.two_materials()
         gltf, binary = parts(self.path("a.glb"))

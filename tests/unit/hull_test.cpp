@@ -90,15 +90,44 @@ TEST(Hull, AreaIsThatOfItsTriangles) {
   EXPECT_EQ(hull_area(convex_hull(std::vector<Vec2>{{1, 2}, {2, 4}, {3, 6}})), 0);
 }
 
+double smallest_square_slowly(std::span<const Vec2> hull) {
+  double smallest = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < 200000; ++i) {
+    const double angle = i * 1.5707963267948966 / 200000;
+    const Vec2 x{std::cos(angle), std::sin(angle)};
+    Box2 box;
+    for (const Vec2 p : hull) box.add({dot(x, p), cross(x, p)});
+    smallest = std::min(smallest, std::max(box.size().x, box.size().y));
+  }
+  return smallest;
+}
+
+TEST(Hull, SquareIsTheSmallestButForALittle) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> unit(0, 1);
+  for (int round = 0; round < 60; ++round) {
+    std::vector<Vec2> points(static_cast<std::size_t>(2 + round % 9));
+    const double flat = round % 3 == 0 ? 1e-2 : 1;
+    for (Vec2& p : points) p = {7 + unit(random), flat * unit(random)};
+    const std::vector<Vec2> hull = convex_hull(points);
+    const double slow = smallest_square_slowly(hull);
+    EXPECT_GE(square_side(hull), slow * (1 - 1e-5)) << round;
+    EXPECT_LE(square_side(hull), slow * 1.004) << round;
+  }
+}
+
 TEST(Hull, FewPoints) {
   EXPECT_EQ(hull_area({}), 0);
   EXPECT_EQ(diameter_direction({}), 0);
   EXPECT_EQ(smallest_box_direction({}), 0);
+  EXPECT_EQ(square_side({}), 0);
   const std::vector<Vec2> one{{1, 2}}, two{{1, 2}, {1, 5}};
   EXPECT_EQ(diameter_direction(one), 0);
   EXPECT_EQ(smallest_box_direction(one), 0);
+  EXPECT_EQ(square_side(one), 0);
   EXPECT_NEAR(diameter_direction(two), std::acos(0.0), 1e-12);
   EXPECT_NEAR(smallest_box_direction(two), std::acos(0.0), 1e-12);
+  EXPECT_NEAR(square_side(two), 3 / std::sqrt(2.0), 1e-12);
 }
 
 }  // namespace

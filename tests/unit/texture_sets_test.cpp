@@ -89,6 +89,57 @@ TEST(TextureSets, InTexelsGroupsLieApart) {
   EXPECT_EQ(mesh.texcoords[6], (Vec2{0, 0}));
 }
 
+TEST(TextureSets, GroupsOfAnySizesLieApart) {
+  ModelTextures textures;
+  textures.images = {Texture(64, 64, 3), Texture(16, 64, 3), Texture(512, 2, 3)};
+  textures.uses = {use(0, "map_Kd", 0), use(1, "map_Kd", 1), use(2, "map_Kd", 2)};
+  Mesh mesh = four_triangles();
+  for (std::size_t i = 3; i < 6; ++i) mesh.texcoords[i].x -= 7;
+  for (std::size_t i = 6; i < 9; ++i) mesh.texcoords[i].x += 3;
+  for (std::vector<std::uint32_t> materials :
+       {std::vector<std::uint32_t>{0, 1, 2, 0}, {2, 0, 1, 0}, {1, 2, 0, 0}}) {
+    const auto sets = texture_sets(mesh, materials, textures, true);
+    ASSERT_EQ(sets.size(), 1U);
+    const Mesh texels = mesh_in_texels(sets[0]);
+    std::vector<Box2> boxes(3);
+    for (std::size_t c = 0; c < 9; ++c)
+      boxes[c / 3].add(texels.texcoords[texels.corner_texcoord[c]]);
+    for (std::size_t i = 0; i < 3; ++i) {
+      EXPECT_NEAR(boxes[i].size().x, 0.5 * textures.images[materials[i]].width, 1e-9);
+      for (std::size_t j = 0; j < i; ++j) {
+        EXPECT_TRUE(boxes[i].min.x > boxes[j].max.x || boxes[j].min.x > boxes[i].max.x);
+      }
+    }
+  }
+}
+
+TEST(TextureSets, MergedHeightsAndNormalsStayApart) {
+  ModelTextures textures;
+  textures.images = {Texture(8, 8, 3), Texture(8, 8, 1)};
+  textures.uses = {use(0, "bump", 0), use(1, "bump", 1)};
+  textures.uses[0].role = TextureRole::normals;
+  textures.uses[1].role = TextureRole::data;
+  const auto sets =
+      texture_sets(four_triangles(), std::vector<std::uint32_t>{0, 1, 1, 0}, textures, true);
+  ASSERT_EQ(sets.size(), 1U);
+  ASSERT_EQ(sets[0].textures.size(), 2U);
+  EXPECT_NE(sets[0].textures[0].name, sets[0].textures[1].name);
+  for (const SetTexture& texture : sets[0].textures) {
+    ASSERT_EQ(texture.uses.size(), 1U);
+    EXPECT_EQ(texture.target.role, textures.uses[texture.uses[0]].role);
+  }
+}
+
+TEST(TextureSets, MergedKeepsColorAndAlpha) {
+  ModelTextures textures;
+  textures.images = {Texture(8, 8, 2), Texture(8, 8, 3)};
+  textures.uses = {use(0, "map_Kd", 0), use(1, "map_Kd", 1)};
+  const auto sets =
+      texture_sets(four_triangles(), std::vector<std::uint32_t>{0, 1, 1, 0}, textures, true);
+  ASSERT_EQ(sets.size(), 1U);
+  EXPECT_EQ(sets[0].textures[0].target.channels, 4);
+}
+
 TEST(ScaleToTexels, EachChartHasTheAreaItHadInTexels) {
   Mesh texels = four_triangles();
   texels.corner_texcoord = {0, 1, 2, 3, 4, 5, 6, 7, 8, 0, 1, 2};

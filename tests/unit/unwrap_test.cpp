@@ -8,6 +8,7 @@
 #include <set>
 #include <thread>
 
+#include "charts/hull.h"
 #include "support/shapes.h"
 #include "support/solids.h"
 #include "wrapatlas/charts.h"
@@ -133,6 +134,36 @@ TEST(Unwrap, LessStretchTakesMoreCharts) {
   options.max_stretch = 1.5;
   const Unwrapping u = expect_unwrapped(test::ball(10), options);
   for (const UnwrappedChart& chart : u.charts) EXPECT_LE(chart.distortion.linf, 1.5);
+}
+
+/// Sides of squares around the charts, as shares of the side of one with the area of all.
+double largest_extent(const Unwrapping& u) {
+  std::vector<std::vector<Vec2>> points(u.charts.size());
+  double area = 0;
+  for (std::uint32_t face = 0; face < u.mesh.face_count(); ++face) {
+    for (std::uint32_t c = u.mesh.face_begin[face]; c < u.mesh.face_begin[face + 1]; ++c) {
+      points[u.face_chart[face]].push_back(u.mesh.texcoords[u.mesh.corner_texcoord[c]]);
+    }
+  }
+  for (const UnwrappedChart& chart : u.charts) area += chart.area;
+  double largest = 0;
+  for (const auto& chart : points) largest = std::max(largest, square_side(convex_hull(chart)));
+  return largest / std::sqrt(area);
+}
+
+TEST(Unwrap, NoChartLongerThanAsked) {
+  const Mesh tube = test::tube(8, 64);
+  EXPECT_GT(largest_extent(expect_unwrapped(tube)), 2);
+  for (const double most : {2.0, 1.2, 0.8}) {
+    UnwrapOptions options;
+    options.max_extent = most;
+    EXPECT_LE(largest_extent(expect_unwrapped(tube, options)), most * (1 + 1e-9)) << most;
+    options.max_charts = 1;  // joins no more than may be
+    EXPECT_LE(largest_extent(expect_unwrapped(tube, options)), most * (1 + 1e-9)) << most;
+  }
+  UnwrapOptions options;
+  options.max_extent = 0.01;  // a face is not cut
+  EXPECT_EQ(expect_unwrapped(test::ball(4), options).charts.size(), test::ball(4).face_count());
 }
 
 TEST(Unwrap, AtMostSoManyCharts) {
@@ -282,6 +313,9 @@ TEST(Unwrap, RefusesAndStops) {
   options.max_stretch = 0.5;
   EXPECT_EQ(unwrap(test::ball(4), options).error().kind, ErrorKind::usage);
   options.max_stretch = 2;
+  options.max_extent = -1;
+  EXPECT_EQ(unwrap(test::ball(4), options).error().kind, ErrorKind::usage);
+  options.max_extent = 0;
   options.flatten.iterations = 0;
   EXPECT_EQ(unwrap(test::ball(4), options).error().kind, ErrorKind::usage);
   EXPECT_EQ(unwrap(Mesh{}).error().kind, ErrorKind::input);

@@ -18,6 +18,7 @@ Result<Mesh> unwrapped(const TransferArguments& a, const Mesh& texels, bool v_po
                        const std::string& label) {
   ProgressLine line(!a.pack.quiet);
   UnwrapOptions options;
+  options.max_extent = default_extent(a.pack.options.wrap);
   options.threads = a.pack.options.threads;
   options.progress = [&](const UnwrapProgress& progress) {
     line.show(fmt::format("{}unwrapping {:3.0f} %", label, 100 * progress.fraction));

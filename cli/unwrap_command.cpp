@@ -25,6 +25,7 @@ struct UnwrapArguments {
   PackArguments pack;
   UnwrapOptions options;
   std::optional<double> hard_edges;  ///< degrees
+  std::optional<double> max_extent;
   bool split_materials = false;
   Stage last = Stage::packed;
   std::string view, heat;  ///< pictures
@@ -146,6 +147,7 @@ int run(const CLI::App& app, UnwrapArguments& arguments) {
   if (arguments.hard_edges) {
     arguments.options.surface.hard_angle = *arguments.hard_edges * std::numbers::pi / 180;
   }
+  arguments.options.max_extent = arguments.max_extent.value_or(default_extent(pack.options.wrap));
   arguments.options.threads = pack.options.threads;
   LoadOptions load_options;
   load_options.texcoord_set = pack.texcoord;
@@ -210,10 +212,10 @@ Command make_unwrap_command(CLI::App& parser) {
       "Join charts beyond --max-stretch until there are no more than this; parts of the "
       "surface that do not touch stay apart, and unions of over 60,000 triangles or that overlap "
       "themselves are not made. 0: no limit");
-  add_number(app, "--max-extent", options.max_extent, {0, 1000},
+  add_number(app, "--max-extent", arguments->max_extent, {0, 1000},
              "Cut charts that do not fit into a square of so many times the side of one that has "
-             "the area of the whole surface; an atlas that does not wrap holds long ones badly. 0: "
-             "no limit");
+             "the area of the whole surface; 0: no limit. Default: 0.8 with --wrap none, as a page "
+             "that does not wrap holds long charts badly; else 0");
   add_choice(
       app, "--flatten", options.flatten.method, kFlattenMethods,
       "labf: linear angle based flattening (Zayer et al. 2007); lscm: least squares conformal "

@@ -39,7 +39,7 @@ enum class RotationBase {
 /// The shape of the atlas, at the area of width * height.
 enum class Aspect {
   fixed,   ///< width x height
-  search,  ///< the best of the paper's 31 ratios from 1:8 to 8:1
+  search,  ///< the best of the paper's 31 ratios from 1:8 to 8:1; by guided also those between
   pow2,    ///< the best of those whose sides are powers of two, from 1:16 to 16:1
 };
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "wrapatlas/mesh.h"
+#include "wrapatlas/pack.h"
 #include "wrapatlas/parameterize.h"
 #include "wrapatlas/result.h"
 #include "wrapatlas/surface.h"
@@ -40,6 +41,10 @@ struct UnwrapOptions {
   /// Called now and then from any thread, one call at a time; false: stop.
   std::function<bool(const UnwrapProgress&)> progress;
 };
+
+/// UnwrapOptions::max_extent for an atlas that wraps so: charts of any length where it does on any
+/// axis, as they may lie across the border; else 0.8, as a page has to hold them.
+double default_extent(Wrap wrap);
 
 struct UnwrappedChart {
   std::uint32_t faces = 0;

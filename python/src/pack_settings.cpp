@@ -94,6 +94,10 @@ void bind_unwrap_settings(nb::module_& module) {
       settings, "flatten", kFlattenMethods,
       [](UnwrapSettings & s) -> auto& { return s.options.flatten.method; });
   settings
+      .def("set_default_extent",
+           [](UnwrapSettings& s, const PackSettings& pack) {
+             s.options.max_extent = default_extent(pack.options.wrap);
+           })
       .def_prop_rw(
           "hard_edges",
           [](const UnwrapSettings& s) {

@@ -192,8 +192,11 @@ def _refuse_useless(settings: _core.PackSettings, options: Mapping[str, Any]) ->
         )
 
 
-def unwrap_settings(options: Mapping[str, Any]) -> _core.UnwrapSettings:
+def unwrap_settings(
+    options: Mapping[str, Any], packing: _core.PackSettings
+) -> _core.UnwrapSettings:
     settings = _core.UnwrapSettings()
+    settings.set_default_extent(packing)
     for name in _UNWRAP:
         if name in options and options[name] is not None:
             setattr(settings, name, options[name])

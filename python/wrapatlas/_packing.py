@@ -237,7 +237,8 @@ def unwrap(
     stretch: "l2", the root mean square over a chart, or "linf", the largest at any place of it.
     max_charts: join charts beyond max_stretch until there are no more; 0: no limit.
     max_extent: cut charts that do not fit into a square of so many times the side of one that has the
-        area of the whole surface; 0: no limit.
+        area of the whole surface; 0: no limit. Default: 0.8 with wrap="none", as a page that does
+        not wrap holds long charts badly; else 0.
     flatten: "labf" or "lscm". iterations: linear solves of labf; 2.
     hard_edges: cut along edges whose faces differ by more than so many degrees.
     keep_seams: cut wherever the UVs that the mesh has are cut. split_materials: and between
@@ -253,6 +254,7 @@ def unwrap(
         mesh = as_mesh(_as_mesh_like(vertices), "vertices")
     else:
         mesh = core_mesh(cast(npt.ArrayLike, vertices), faces)
-    cutting, packing = unwrap_settings(options), pack_settings(options)
+    packing = pack_settings(options)
+    cutting = unwrap_settings(options, packing)
     with reported(options.get("progress")) as progress:
         return Packing(_core.unwrap(mesh, cutting, packing, progress, keep_best(options)))

@@ -90,6 +90,8 @@ def generate(
         options["aspect"] = "search"  # as xatlas, which chooses the shape, too
     if is_unwrapped:
         cut: dict[str, Any] = {"max_stretch": how.max_stretch, "max_charts": how.max_charts}
+        if how.max_extent is not None:
+            cut["max_extent"] = how.max_extent
         packing = unwrap(mesh, **options, **cut)
     else:
         packing = pack(mesh, **options)

@@ -35,6 +35,8 @@ class ChartOptions:
     """Ours: no chart is stretched more; see wrapatlas.unwrap."""
     max_charts: int = 0
     """Ours: join charts beyond max_stretch until there are no more; 0: no limit."""
+    max_extent: float | None = None
+    """Ours: how long charts may be; see wrapatlas.unwrap, whose default it has."""
 
 
 @dataclass

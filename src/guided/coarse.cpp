@@ -184,14 +184,13 @@ void CoarseSearch::disturb(std::vector<Place>& places, const Domain& domain) {
 void CoarseSearch::run(Effort& effort, bool until_stuck) {
   SeparateOptions options;
   options.stall_rounds = until_stuck ? options_.hasty_rounds : options_.stall_rounds;
-  options.effort = &effort;
   while (!gave_up_ && cells(domain_) > 1 && !effort.spent()) {
     effort.count_move();  // of one chart no move may ever be needed
     std::vector<Place> places = scaled(from_.places, *library_, from_.domain, domain_);
     bool filled = false;
     if (fit_angles(domain_, places)) {
       Separator separator(*library_, domain_, random_);
-      filled = separator.run(places, options);
+      filled = separator.run(places, options, effort);
       if (!filled) keep_near(separator.least(), places);
     }
     if (filled) {

@@ -18,7 +18,8 @@ int coarse_side(std::size_t charts) {
                     512);
 }
 
-constexpr int kEpochs = 8;            ///< times the best layout is handed to the other lines
+constexpr int kSharings = 8;          ///< times the best layout is handed to the other lines
+constexpr double kEpochSeconds = 4;   ///< at most, until what was found is refined, about
 constexpr double kShapesShare = 0.5;  ///< of the time, to choose among shapes of atlas
 /// A line that begins anywhere may at once be so much denser than the packing that is known.
 constexpr double kHoped = 1.3;
@@ -120,6 +121,7 @@ void Lines::share_best() {
     const bool alike = any_shape() || line->frame == best->frame;
     if (alike && line->coarse.efficiency() < best->coarse.efficiency()) {
       line->coarse.adopt(best->coarse);
+      line->refined = best->refined;
     }
   }
 }
@@ -165,10 +167,14 @@ void Lines::run_until_stuck(double share) {
 
 void Lines::go_on() {
   if (once()) return;
-  for (int epoch = 1; epoch <= kEpochs && !record_.stopped(); ++epoch) {
-    share_best();
-    const double from = spent_ + (end() - spent_) * (epoch - 1) / kEpochs;
-    const double to = spent_ + (end() - spent_) * epoch / kEpochs;
+  // Stopped in a long search one wants what it has found.
+  const double seconds = record_.timed() ? options_.time : 0;
+  const int apart = std::max(1, static_cast<int>(std::ceil(seconds / kSharings / kEpochSeconds)));
+  const int epochs = kSharings * apart;
+  for (int epoch = 0; epoch < epochs && !record_.stopped(); ++epoch) {
+    if (epoch % apart == 0) share_best();
+    const double from = spent_ + (end() - spent_) * epoch / epochs;
+    const double to = spent_ + (end() - spent_) * (epoch + 1) / epochs;
     spend(from, to, false);
     improve_all(1);
   }

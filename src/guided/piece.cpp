@@ -147,6 +147,8 @@ bool admits(const Domain& domain, const Piece& piece) {
   const bool wide = piece.width > domain.width, high = piece.height > domain.height;
   if (!wide && !high) return true;
   if ((wide && !domain.wraps_x) || (high && !domain.wraps_y)) return false;
+  const int longest = kLongestInDomains * std::max(domain.width, domain.height);
+  if (std::max(piece.width, piece.height) > longest) return false;
   thread_local BitLanes covered;
   covered.lanes = domain.height;
   covered.length = domain.width;

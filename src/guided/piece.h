@@ -60,7 +60,7 @@ Piece make_piece(const ChartRaster& raster);
 Piece make_bare_piece(const ChartRaster& raster);
 
 /// Can the piece lie in the domain at all: inside the sides that do not wrap, and not over itself
-/// across those that do?
+/// across those that do? kLongestInDomains bounds how often it may wind around them.
 bool admits(const Domain& domain, const Piece& piece);
 
 }  // namespace wrapatlas

@@ -2,10 +2,31 @@
 
 #include <algorithm>
 
+#include "guided/wrapped.h"
+
 namespace wrapatlas {
 namespace {
 
 constexpr double kLeastScale = 0.5;  ///< of the first scale: below it, the layout is given up
+constexpr int kMostTurned = kAngleSteps / 128;  ///< about what a layout's angles are rounded to
+
+/// Turns charts that cannot lie in the domain at their angle, as a long one that winds around the
+/// torus may lie on itself, to the nearest one at which they can. False: there is none near.
+bool turn_to_fit(Layout& layout, PieceLibrary& library, const Domain& domain,
+                 const Effort& effort) {
+  for (std::size_t i = 0; i < layout.spots.size(); ++i) {
+    const int first = layout.spots[i].angle;
+    for (int k = 0; !admits(domain, library.piece(i, layout.spots[i].angle)); ++k) {
+      if (k == 2 * kMostTurned || effort.spent()) {
+        layout.spots[i].angle = first;
+        return false;
+      }
+      const int turned = k % 2 == 0 ? k / 2 + 1 : -(k / 2 + 1);
+      layout.spots[i].angle = modulo(first + turned, kAngleSteps);
+    }
+  }
+  return true;
+}
 
 }  // namespace
 
@@ -17,7 +38,6 @@ std::optional<Packing> refine(std::span<const ChartShape> shapes, const Frame& f
   separate.window = how.window;
   separate.stall_rounds = how.stall_rounds;
   separate.angle_step = 12;
-  separate.effort = &effort;
   const double area = total_area(shapes);
   std::optional<Packing> best;
   Layout layout = start, good;
@@ -25,13 +45,10 @@ std::optional<Packing> refine(std::span<const ChartShape> shapes, const Frame& f
   while (!effort.spent()) {
     PieceLibrary library(shapes, raster_scale_on(frame, layout.scale, options.coverage),
                          kAngleSteps, kLongestInDomains * std::max(frame.width, frame.height));
+    const bool fits = turn_to_fit(layout, library, domain, effort);
     std::vector<Place> places = to_places(layout, library, domain);
-    bool fits = true;
-    for (std::size_t i = 0; i < places.size(); ++i) {
-      fits = fits && admits(domain, library.piece(i, places[i].angle));
-    }
     Separator separator(library, domain, random);
-    if (fits && separator.run(places, separate)) {
+    if (fits && separator.run(places, separate, effort)) {
       layout.spots = to_spots(places, library, domain);
       good = layout;
       std::int64_t covered_cells = 0;

@@ -17,22 +17,18 @@ constexpr float kDecay = 0.95F;
 int positions(int size, int piece, bool wraps) { return wraps ? size : size - piece + 1; }
 
 /// The part of an axis that a piece at `begin` with `length` cells covers when moved by up to
-/// `window` cells; and which translations of it those moves are.
-struct Window {
-  Stretch stretch;
-  int begin = 0, end = 0;  ///< translations, from the stretch's origin
-};
-Window window_around(int begin, int length, int window, int size, bool wraps) {
+/// `window` cells.
+Stretch stretch_around(int begin, int length, int window, int size, bool wraps) {
   if (wraps) {
     if (length + 2 * window >= size) {
       const int around = std::min(window, (size - 1) / 2);
       // The whole axis, turned so that the moves are one range of translations.
-      return {{modulo(begin - around, size), size, true}, 0, 2 * around + 1};
+      return {modulo(begin - around, size), size, true};
     }
-    return {{modulo(begin - window, size), length + 2 * window, false}, 0, 2 * window + 1};
+    return {modulo(begin - window, size), length + 2 * window, false};
   }
   const int from = std::max(0, begin - window), to = std::min(size - length, begin + window);
-  return {{from, to + length - from, false}, 0, to - from + 1};
+  return {from, to + length - from, false};
 }
 
 }  // namespace
@@ -135,24 +131,25 @@ void Separator::move_nearby(std::size_t chart, const SeparateOptions& options) {
   const Piece& piece = library_.piece(chart, old.angle);
   // Room for pieces a little larger, as other angles may have them.
   constexpr int kSpare = 8;
-  const Window x =
-      window_around(old.x, piece.width, options.window + kSpare, domain_.width, domain_.wraps_x);
-  const Window y =
-      window_around(old.y, piece.height, options.window + kSpare, domain_.height, domain_.wraps_y);
-  fill_field(chart, x.stretch, y.stretch);
+  const Stretch x =
+      stretch_around(old.x, piece.width, options.window + kSpare, domain_.width, domain_.wraps_x);
+  const Stretch y =
+      stretch_around(old.y, piece.height, options.window + kSpare, domain_.height, domain_.wraps_y);
+  fill_field(chart, x, y);
   Place to = old;
   Shift best{kMostCost, 0, 0};
   const auto try_angle = [&](int angle) {
     const Piece& turned = library_.piece(chart, angle);
     if (!admits(domain_, turned)) return;
     // Same centre, then the window.
-    const auto range_along = [&](double old_centre, double centre, int old_begin, const Window& w,
-                                 int length, int size, bool wraps, int& begin, int& end) {
+    const auto range_along = [&](double old_centre, double centre, int old_begin,
+                                 const Stretch& part, int length, int size, bool wraps, int& begin,
+                                 int& end) {
       const int aligned = old_begin + static_cast<int>(std::lround(old_centre - centre));
-      const int at = wraps ? modulo(aligned - w.stretch.origin, size) : aligned - w.stretch.origin;
+      const int at = wraps ? modulo(aligned - part.origin, size) : aligned - part.origin;
       begin = std::max(at - options.window, 0);
       end = at + options.window + 1;
-      const int room = w.stretch.cyclic ? w.stretch.count : w.stretch.count - length + 1;
+      const int room = part.cyclic ? part.count : part.count - length + 1;
       end = std::min(end, room);
     };
     ShiftRange range;
@@ -165,7 +162,7 @@ void Separator::move_nearby(std::size_t chart, const SeparateOptions& options) {
     const std::uint16_t before = best.cost;
     best_shift(field_, turned, range, best);
     if (best.cost < before) {
-      to = {angle, x.stretch.origin + best.x, y.stretch.origin + best.y};
+      to = {angle, x.origin + best.x, y.origin + best.y};
       if (domain_.wraps_x) to.x = modulo(to.x, domain_.width);
       if (domain_.wraps_y) to.y = modulo(to.y, domain_.height);
     }
@@ -190,7 +187,7 @@ void Separator::raise_weights() {
   }
 }
 
-bool Separator::run(std::vector<Place>& places, const SeparateOptions& options) {
+bool Separator::run(std::vector<Place>& places, const SeparateOptions& options, Effort& effort) {
   take(places);
   std::fill(weight_.begin(), weight_.end(), 1.0F);
   least_ = total();
@@ -208,8 +205,8 @@ bool Separator::run(std::vector<Place>& places, const SeparateOptions& options) 
       } else {
         move_anywhere(chart, options);
       }
-      options.effort->count_move();
-      if (options.effort->spent()) return least_ == 0;
+      effort.count_move();
+      if (effort.spent()) return least_ == 0;
     }
     const std::int64_t now = total();
     if (now < least_) {

@@ -22,12 +22,11 @@ struct Place {
 };
 
 struct SeparateOptions {
-  int stall_rounds = 40;     ///< rounds without 2 % less overlap after which it gives up
-  int window = 0;            ///< cells that a chart may move at a time; 0: anywhere
-  double any_angles = 16;    ///< without a window: so many angles are looked at in a move, about,
-  int near_angles = 2;       ///< and so many to each side of the chart's own
-  int angle_step = 1;        ///< with a window: largest change of the angle's number in a move
-  Effort* effort = nullptr;  ///< counts the moves and says when it is enough
+  int stall_rounds = 40;   ///< rounds without 2 % less overlap after which it gives up
+  int window = 0;          ///< cells that a chart may move at a time; 0: anywhere
+  double any_angles = 16;  ///< without a window: so many angles are looked at in a move, about,
+  int near_angles = 2;     ///< and so many to each side of the chart's own
+  int angle_step = 1;      ///< with a window: largest change of the angle's number in a move
 };
 
 class Separator {
@@ -35,7 +34,8 @@ class Separator {
   Separator(PieceLibrary& library, const Domain& domain, Random& random);
 
   /// Moves charts until none overlap. Otherwise false, with the places of least overlap met.
-  bool run(std::vector<Place>& places, const SeparateOptions& options);
+  /// `effort` counts the moves and says when it is enough.
+  bool run(std::vector<Place>& places, const SeparateOptions& options, Effort& effort);
   /// Cells of the least overlap met at the end of a round of the last run.
   [[nodiscard]] std::int64_t least() const { return least_; }
 

@@ -55,6 +55,20 @@ std::vector<Size> pow2_sizes(double side) {
   return sizes;
 }
 
+/// Those on which the margin leaves room for a cell; if there is none, all.
+std::vector<Size> with_room(const std::vector<Size>& sizes, double cell,
+                            const PackOptions& options) {
+  const double inset = options.margin < 0 ? 0 : options.margin - options.padding / 2;
+  const double least = 2 * inset + cell + (options.block > 1 ? options.block : 0);
+  std::vector<Size> kept;
+  for (const Size& size : sizes) {
+    if (!wraps_u(options.wrap) && size.width < least) continue;
+    if (!wraps_v(options.wrap) && size.height < least) continue;
+    kept.push_back(size);
+  }
+  return kept.empty() ? sizes : kept;
+}
+
 }  // namespace
 
 Result<std::vector<Frame>> make_frames(const PackOptions& options, double cell) {
@@ -64,7 +78,7 @@ Result<std::vector<Frame>> make_frames(const PackOptions& options, double cell) 
   if (options.aspect == Aspect::pow2) sizes = pow2_sizes(side);
   if (options.aspect == Aspect::search && cell >= 1) cell = unit;
   std::vector<Frame> frames;
-  for (const Size& size : sizes) {
+  for (const Size& size : with_room(sizes, cell, options)) {
     auto frame = make_frame(size.width, size.height, cell, options);
     if (!frame) return frame.error();
     frames.push_back(*frame);

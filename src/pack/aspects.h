@@ -9,7 +9,8 @@
 namespace wrapatlas {
 
 /// A grid on every shape that options.aspect asks for, its cells about `cell` texels long, the
-/// most square shapes first. Errors: usage.
+/// most square shapes first. Shapes on which the margin leaves no room are left out, if others have
+/// some. Errors: usage.
 Result<std::vector<Frame>> make_frames(const PackOptions& options, double cell);
 
 /// Turned by a right angle, charts fill a shape of atlas as well as its mirror image, unless only

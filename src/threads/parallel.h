@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <exception>
 #include <mutex>
-#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -40,8 +39,8 @@ void parallel_for(std::size_t count, int threads, Job job) {
   try {
     pool.reserve(wanted);
     while (pool.size() + 1 < wanted) pool.emplace_back(work);
-  } catch (const std::system_error&) {
-    // The system gives no more threads: those there are do the work.
+  } catch (...) {
+    // The system gives no more threads or memory for them: those there are do the work.
   }
   work();
   for (std::thread& thread : pool) thread.join();

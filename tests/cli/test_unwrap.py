@@ -105,6 +105,21 @@ class Unwrap(support.CommandTest):
         lscm = self.unwrap(source, "e.obj", "--flatten", "lscm")
         self.assertTrue(all(chart["lscm"] for chart in lscm["unwrapped"]))
 
+    def test_charts_that_a_page_has_to_hold(self):
+        """The knot is one long strip, which a square that does not wrap holds badly."""
+        source = self.sample("knot.off")
+        found = {extent: self.unwrap(source, "a.obj", "--wrap", "none", "--max-extent", extent)
+                 for extent in (0, 1, 0.8)}
+        self.assertGreater(found[1]["efficiency"], 2 * found[0]["efficiency"])
+        self.assertGreater(found[1]["charts"], found[0]["charts"])
+        self.assertEqual(found[1]["max_extent"], 1)
+        for wrap, extent in (("none", 0.8), ("u", 0), ("uv", 0)):
+            self.assertEqual(self.unwrap(source, "b.obj", "--wrap", wrap)["max_extent"], extent)
+        self.assertEqual(self.unwrap(source, "b.obj", "--wrap", "none")["charts"],
+                         found[0.8]["charts"])
+        self.refuse(2, ("--max-extent", "0 to 1000"), "unwrap", source, "-o", "b.obj",
+                    "--max-extent", -1)
+
     def test_stops_after_a_stage(self):
         source = self.sample("knot.off")
         report = self.report("unwrap", source, "-o", "a.obj", "--quiet", "--stop-after", "charts")

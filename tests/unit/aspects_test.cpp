@@ -32,6 +32,22 @@ TEST(Aspects, OfAShapeAndItsMirrorImageOneIsKept) {
   }
 }
 
+TEST(Aspects, ShapesWithoutRoomAreLeftOut) {
+  for (const Aspect aspect : {Aspect::search, Aspect::pow2}) {
+    PackOptions options = searched(Wrap::none, 1);
+    options.aspect = aspect;
+    options.width = options.height = 64;
+    const auto all = make_frames(options, 1);
+    options.margin = 14;
+    const auto wide = make_frames(options, 1);
+    ASSERT_TRUE(all && wide) << wide.error().message();
+    EXPECT_LT(wide->size(), all->size());
+    for (const Frame& frame : *wide) EXPECT_GT(std::min(frame.width, frame.height), 0);
+    options.margin = 40;
+    EXPECT_FALSE(make_frames(options, 1));
+  }
+}
+
 TEST(Aspects, TheOneThatAPackingIsOnIsKept) {
   const auto frames = make_frames(searched(Wrap::uv, 1), 1);
   ASSERT_TRUE(frames);

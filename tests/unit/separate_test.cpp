@@ -105,11 +105,10 @@ TEST(Separator, LeavesTheOverlapItSays) {
     for (Place& place : places) place.angle = random.below(64);
     Effort effort(nullptr);
     SeparateOptions options;
-    options.effort = &effort;
     options.stall_rounds = 8;
     options.window = trial % 3 == 0 ? 10 : 0;
     Separator separator(library, domain, random);
-    const bool done = separator.run(places, options);
+    const bool done = separator.run(places, options, effort);
     const std::int64_t left = overlap(library, domain, places);
     EXPECT_EQ(separator.least(), left);
     EXPECT_EQ(done, left == 0);
@@ -129,9 +128,8 @@ TEST(Separator, ARunThatIsStoppedGivesTheBestSoFar) {
   Effort effort(nullptr);
   effort.moves(40);
   SeparateOptions options;
-  options.effort = &effort;
   Separator separator(library, domain, random);
-  EXPECT_FALSE(separator.run(places, options));
+  EXPECT_FALSE(separator.run(places, options, effort));
   EXPECT_EQ(effort.moves_made(), 40);
   EXPECT_LT(overlap(library, domain, places), before);
   EXPECT_EQ(separator.least(), overlap(library, domain, places));

@@ -214,8 +214,8 @@ Command make_unwrap_command(CLI::App& parser) {
       "themselves are not made. 0: no limit");
   add_number(app, "--max-extent", arguments->max_extent, {0, 1000},
              "Cut charts that do not fit into a square of so many times the side of one that has "
-             "the area of the whole surface; 0: no limit. Default: 0.8 with --wrap none, as a page "
-             "that does not wrap holds long charts badly; else 0");
+             "the area of the whole surface; 0: no limit. Default: 1.5; with --wrap none 0.8, as a "
+             "page that does not wrap holds long charts badly");
   add_choice(
       app, "--flatten", options.flatten.method, kFlattenMethods,
       "labf: linear angle based flattening (Zayer et al. 2007); lscm: least squares conformal "

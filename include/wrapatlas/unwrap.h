@@ -42,8 +42,8 @@ struct UnwrapOptions {
   std::function<bool(const UnwrapProgress&)> progress;
 };
 
-/// UnwrapOptions::max_extent for an atlas that wraps so: charts of any length where it does on any
-/// axis, as they may lie across the border; else 0.8, as a page has to hold them.
+/// UnwrapOptions::max_extent for an atlas that wraps so: 1.5 where it does on any axis, as long
+/// charts may lie across the border; else 0.8, as a page has to hold them.
 double default_extent(Wrap wrap);
 
 struct UnwrappedChart {

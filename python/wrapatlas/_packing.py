@@ -237,8 +237,8 @@ def unwrap(
     stretch: "l2", the root mean square over a chart, or "linf", the largest at any place of it.
     max_charts: join charts beyond max_stretch until there are no more; 0: no limit.
     max_extent: cut charts that do not fit into a square of so many times the side of one that has the
-        area of the whole surface; 0: no limit. Default: 0.8 with wrap="none", as a page that does
-        not wrap holds long charts badly; else 0.
+        area of the whole surface; 0: no limit. Default: 1.5; with wrap="none" 0.8, as a page that
+        does not wrap holds long charts badly.
     flatten: "labf" or "lscm". iterations: linear solves of labf; 2.
     hard_edges: cut along edges whose faces differ by more than so many degrees.
     keep_seams: cut wherever the UVs that the mesh has are cut. split_materials: and between

@@ -27,14 +27,14 @@ constexpr std::size_t kMostImproved = 1000;
 /// Up to so many charts separation begins from modulo's packing alone.
 constexpr std::size_t kFewCharts = 40;
 
-/// Texels to a cell of the final grid: one, but for large atlases, and for small ones, where whole
-/// texels would be coarse beside the charts.
+/// Texels to a cell of the final grid: one, but for large atlases, and for small ones of few
+/// charts, where whole texels are coarse beside the charts.
 double fine_cell(const PackOptions& options, std::size_t charts) {
-  constexpr int kCoarsest = 1024;
   const int finest = charts > kMostSeparated ? 4096 : 2048;
+  const int coarsest = charts > kFewCharts ? 1 : 512;
   const int longest = std::max(options.width, options.height);
   if (options.grid > 0) return double(longest) / options.grid;
-  return double(longest) / std::clamp(longest, kCoarsest, finest);
+  return double(longest) / std::clamp(longest, coarsest, finest);
 }
 
 /// Charts may be the pieces of one sheet: if all of them fit together they are packed like that.

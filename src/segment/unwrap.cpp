@@ -137,7 +137,7 @@ void add_folded(std::uint32_t face, Shelves& shelves, Unwrapping& result) {
 
 }  // namespace
 
-double default_extent(Wrap wrap) { return wrap == Wrap::none ? 0.8 : 0; }
+double default_extent(Wrap wrap) { return wrap == Wrap::none ? 0.8 : 1.5; }
 
 Result<Unwrapping> unwrap(const Mesh& mesh, const UnwrapOptions& options) {
   if (const Status ok = check_options(options); !ok) return ok.error();

@@ -94,11 +94,11 @@ class Unwrap(support.CommandTest):
 
     def test_limits(self):
         source = self.sample("knot.off")
-        loose = self.unwrap(source, "a.obj")["charts"]
-        tight = self.unwrap(source, "b.obj", "--max-stretch", 1.05)
+        loose = self.unwrap(source, "a.obj", "--max-extent", 0)["charts"]
+        tight = self.unwrap(source, "b.obj", "--max-stretch", 1.05, "--max-extent", 0)
         self.assertGreater(tight["charts"], loose)
         self.assertLessEqual(tight["stretch"]["l2_max"], 1.05)
-        few = self.unwrap(source, "c.obj", "--max-stretch", 1.05, "--max-charts", loose)
+        few = self.unwrap(source, "c.obj", "--max-stretch", 1.05, "--max-charts", loose, "--max-extent", 0)
         self.assertLessEqual(few["charts"], loose)
         linf = self.unwrap(source, "d.obj", "--stretch", "linf", "--max-stretch", 2)
         self.assertLessEqual(linf["stretch"]["linf_max"], 2)
@@ -113,7 +113,7 @@ class Unwrap(support.CommandTest):
         self.assertGreater(found[1]["efficiency"], 2 * found[0]["efficiency"])
         self.assertGreater(found[1]["charts"], found[0]["charts"])
         self.assertEqual(found[1]["max_extent"], 1)
-        for wrap, extent in (("none", 0.8), ("u", 0), ("uv", 0)):
+        for wrap, extent in (("none", 0.8), ("u", 1.5), ("uv", 1.5)):
             self.assertEqual(self.unwrap(source, "b.obj", "--wrap", wrap)["max_extent"], extent)
         self.assertEqual(self.unwrap(source, "b.obj", "--wrap", "none")["charts"],
                          found[0.8]["charts"])

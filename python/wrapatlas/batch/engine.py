@@ -20,6 +20,7 @@ from . import recipe as recipes
 from .errors import BatchError, UsageError
 from .files import file_system, is_local, join, local_path, parent, told
 from .manifest import Asset
+from .output import scratch_folder
 from .page import write_page
 from .progress import Progress
 from .store import Lock, Store, marks_of
@@ -100,7 +101,8 @@ def run(assets: str, out: str, recipe: str = "unwrap", options: Sequence[str] = 
         held.close()
         raise
     try:
-        shutil.rmtree(os.path.join(home, ".batch", "tmp"), ignore_errors=True)  # of a run that was killed
+        shutil.rmtree(scratch_folder(home), ignore_errors=True)  # of a run that was killed
+        os.makedirs(scratch_folder(home), exist_ok=True)
         store = Store(os.path.join(folder, ".batch", "state.sqlite"))
         try:
             total = store.take_manifest(manifest.read(assets, join(out, "assets")))
@@ -127,7 +129,7 @@ def run(assets: str, out: str, recipe: str = "unwrap", options: Sequence[str] = 
     except OSError as error:
         raise BatchError(f"{error.filename or folder}: {error.strerror or error}; what is done stays done") from error
     finally:
-        shutil.rmtree(os.path.join(home, ".batch", "tmp"), ignore_errors=True)
+        shutil.rmtree(scratch_folder(home), ignore_errors=True)
         held.close()
 
 

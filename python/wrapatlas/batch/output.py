@@ -18,13 +18,17 @@ def asset_folder(out: str, name: str) -> str:
     return join(join(out, "assets"), name)
 
 
+def scratch_folder(home: str) -> str:
+    """The folder of what is under way. The batch makes it and takes it away: a worker that still goes on
+    then finds no place for more."""
+    return os.path.join(home, ".batch", "tmp")
+
+
 def temporary_folder(out: str) -> str:
     """Where results come about: beside their place if that is local, so that a rename suffices."""
     if not is_local(out):
         return tempfile.mkdtemp(prefix="wrapatlas-batch-")
-    parent = os.path.join(local_path(out), ".batch", "tmp")
-    os.makedirs(parent, exist_ok=True)
-    return tempfile.mkdtemp(dir=parent)
+    return tempfile.mkdtemp(dir=scratch_folder(local_path(out)))
 
 
 def read_record(out: str, name: str) -> Optional[Dict[str, Any]]:

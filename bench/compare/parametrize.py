@@ -19,18 +19,16 @@ import xatlas
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
 import measure  # noqa: E402  (of the folder above)
+from union_find import UnionFind  # noqa: E402
 
 
 def chart_count(vertices, faces):
     """Sets of faces that share vertices."""
-    label = numpy.arange(vertices)
-    while True:
-        least = label.copy()
-        numpy.minimum.at(least, faces.ravel(), label[faces].min(axis=1).repeat(3))
-        least = least[least]
-        if (least == label).all():
-            return len(numpy.unique(label[faces]))
-        label = least
+    sets = UnionFind(range(vertices))
+    for a, b, c in faces.tolist():
+        sets.join(a, b)
+        sets.join(b, c)
+    return len({sets.root(face[0]) for face in faces.tolist()})
 
 
 def seam_length(positions, vmapping, faces):

@@ -125,8 +125,8 @@ class Options(unittest.TestCase):
                             "on_interrupt": "ignore", "rotation_base": "", "scale_start": 2}.items():
             with self.subTest(name), self.assertRaisesRegex(wrapatlas.UsageError, f"^{name}"):
                 wrapatlas.pack(FLAT, FACES, **{name: value})
-        for name, value in {"max_stretch": 0.5, "stretch": "l3", "max_charts": -1, "max_extent": -1, "flatten": "abf",
-                            "iterations": 100, "hard_edges": 200, "keep_seams": 1}.items():
+        for name, value in {"max_stretch": 0.5, "stretch": "l3", "max_charts": -1, "max_extent": -1,
+                            "flatten": "abf", "iterations": 100, "hard_edges": 200, "keep_seams": 1}.items():
             with self.subTest(name), self.assertRaisesRegex(wrapatlas.UsageError, f"^{name}"):
                 wrapatlas.unwrap(POSITIONS, TRIANGLES, **{name: value})
 

@@ -1,16 +1,14 @@
-#include <cctype>
 #include <utility>
 
+#include "io/mtl.h"
 #include "wrapatlas/model.h"
 #include "wrapatlas/model_textures.h"
 
 namespace wrapatlas {
 
 bool is_base_color(std::string_view place) {
-  std::string keyword(place);  // an OBJ's counts in any case
-  for (char& c : keyword) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   return place.ends_with("baseColorTexture") || place.ends_with("diffuseTexture") ||
-         keyword == "map_kd";
+         lower(place) == "map_kd";
 }
 
 namespace {

@@ -8,13 +8,14 @@
 #include "io/obj_lines.h"
 
 namespace wrapatlas {
-namespace {
 
 std::string lower(std::string_view text) {
   std::string result(text);
   for (char& c : result) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   return result;
 }
+
+namespace {
 
 bool names_picture(std::string_view keyword) {
   const std::string key = lower(keyword);

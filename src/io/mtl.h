@@ -13,6 +13,9 @@
 
 namespace wrapatlas {
 
+/// Keywords count in any case.
+std::string lower(std::string_view text);
+
 /// A statement that names a picture: "map_Kd -s 2 2 1 wood.png".
 struct MtlMap {
   std::string_view keyword;   ///< all views are parts of the file's bytes: "map_Kd"

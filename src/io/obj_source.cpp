@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <map>
 #include <set>
@@ -126,8 +125,7 @@ bool holds_normals(const Texture& texture) {
 }
 
 TextureRole role_of(std::string_view keyword, const Texture& texture) {
-  std::string key(keyword);
-  for (char& c : key) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const std::string key = lower(keyword);
   if (key == "norm" || key == "map_kn") return TextureRole::normals;
   for (const char* color : {"map_kd", "map_ka", "map_ks", "map_ke"}) {
     if (key == color) return TextureRole::color;

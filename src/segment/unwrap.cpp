@@ -22,7 +22,7 @@ Status check_options(const UnwrapOptions& options) {
   }
   if (!(options.max_extent >= 0)) {
     return Error{ErrorKind::usage, "max extent", "it cannot be negative",
-                 "pass 0 for charts of any length, or 1 or more"};
+                 "pass 0 for charts of any length; 0.8 to 2 is usual"};
   }
   if (options.flatten.iterations < 1 || options.flatten.iterations > kMostIterations) {
     return Error{ErrorKind::usage, "iterations", "it must be from 1 to 20", "leave it at 2"};

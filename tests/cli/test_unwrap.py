@@ -98,7 +98,8 @@ class Unwrap(support.CommandTest):
         tight = self.unwrap(source, "b.obj", "--max-stretch", 1.05, "--max-extent", 0)
         self.assertGreater(tight["charts"], loose)
         self.assertLessEqual(tight["stretch"]["l2_max"], 1.05)
-        few = self.unwrap(source, "c.obj", "--max-stretch", 1.05, "--max-charts", loose, "--max-extent", 0)
+        few = self.unwrap(source, "c.obj", "--max-stretch", 1.05, "--max-charts", loose,
+                          "--max-extent", 0)
         self.assertLessEqual(few["charts"], loose)
         linf = self.unwrap(source, "d.obj", "--stretch", "linf", "--max-stretch", 2)
         self.assertLessEqual(linf["stretch"]["linf_max"], 2)

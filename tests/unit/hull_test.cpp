@@ -55,14 +55,18 @@ void expect_as_slow(std::span<const Vec2> points, const char* what) {
       << what << ", " << hull.size();
 }
 
+/// Far from the origin; every third one flat.
+std::vector<Vec2> cloud(int round, int most, double flat, std::mt19937& random) {
+  std::uniform_real_distribution<double> unit(0, 1);
+  std::vector<Vec2> points(static_cast<std::size_t>(2 + round % most));
+  for (Vec2& p : points) p = {100 + unit(random), (round % 3 == 0 ? flat : 1) * unit(random)};
+  return points;
+}
+
 TEST(Hull, CalipersOnRandomPoints) {
   std::mt19937 random(3);
-  std::uniform_real_distribution<double> unit(0, 1);
   for (int round = 0; round < 3000; ++round) {
-    std::vector<Vec2> points(static_cast<std::size_t>(2 + round % 40));
-    const double flat = round % 3 == 0 ? 1e-3 : 1;
-    for (Vec2& p : points) p = {100 + unit(random), flat * unit(random)};
-    expect_as_slow(points, "cloud");
+    expect_as_slow(cloud(round, 40, 1e-3, random), "cloud");
   }
 }
 
@@ -104,12 +108,8 @@ double smallest_square_slowly(std::span<const Vec2> hull) {
 
 TEST(Hull, SquareIsTheSmallestButForALittle) {
   std::mt19937 random(5);
-  std::uniform_real_distribution<double> unit(0, 1);
   for (int round = 0; round < 60; ++round) {
-    std::vector<Vec2> points(static_cast<std::size_t>(2 + round % 9));
-    const double flat = round % 3 == 0 ? 1e-2 : 1;
-    for (Vec2& p : points) p = {7 + unit(random), flat * unit(random)};
-    const std::vector<Vec2> hull = convex_hull(points);
+    const std::vector<Vec2> hull = convex_hull(cloud(round, 9, 1e-2, random));
     const double slow = smallest_square_slowly(hull);
     EXPECT_GE(square_side(hull), slow * (1 - 1e-5)) << round;
     EXPECT_LE(square_side(hull), slow * 1.004) << round;

@@ -50,6 +50,7 @@ Status resolve(const CLI::App& app, BakeArguments& a) {
   };
   const bool color = has(BakedMap::color), occlusion = has(BakedMap::occlusion);
   const Ignored ignored[] = {
+      {"--high-texcoord", !color, "no colour is baked", "add --map color"},
       {"--color-from", !color, "no colour is baked", "add --map color"},
       {"--occlusion-rays", !occlusion, "no occlusion is baked", "add --map occlusion"},
       {"--occlusion-distance", !occlusion, "no occlusion is baked", "add --map occlusion"},
@@ -61,6 +62,10 @@ Status resolve(const CLI::App& app, BakeArguments& a) {
   a.options.width = a.resolution.width;
   a.options.height = a.resolution.height;
   a.options.threads = threads_for(a.options.threads);
+  if (const Status ok = check_texcoord(a.high_texcoord, std::span(&a.high, 1), "--high-texcoord");
+      !ok) {
+    return ok;
+  }
   return check_texcoord(a.texcoord, std::span(&a.low, 1));
 }
 
@@ -88,81 +93,106 @@ Status check_files(const BakeArguments& a, const Model& low, const Model& high) 
   return Done{};
 }
 
+Result<Model> load_low(const BakeArguments& a) {
+  LoadOptions options;
+  options.texcoord_set = a.texcoord;
+  options.shading = options.in_scene = true;
+  return load_model(a.low, options);
+}
+
+Result<Model> load_high(const BakeArguments& a) {
+  LoadOptions options;
+  options.texcoord_set = a.high_texcoord;
+  options.shading = options.in_scene = true;
+  options.may_add_set = a.high_texcoord == 0;  // it need not have any
+  return load_model(a.high, options);
+}
+
+/// What the colours in a BakeSource point to.
+struct HighColors {
+  Texture texture;  ///< of --color-from
+  BaseColors own;
+};
+
+/// Gives the source the colours that are baked: those of --color-from, or the high model's own.
+Status add_colors(const BakeArguments& a, const Model& high, HighColors& colors,
+                  BakeSource& source) {
+  if (!a.color.empty()) {
+    auto loaded = load_texture(a.color);
+    if (!loaded) return loaded.error();
+    colors.texture = std::move(*loaded);
+    srgb_to_linear(colors.texture, a.options.threads);
+    source.color = &colors.texture;
+    return Done{};
+  }
+  auto found = base_colors(high, a.options.threads);
+  if (!found && high.corner_color.empty()) return found.error();
+  if (!found && !a.quiet) {
+    say("{}: note: baked from the colours of its vertices, without its textures: {}\n", a.high,
+        found.error().message());
+  }
+  if (found) colors.own = *std::move(found);
+  source.group_colors = colors.own.groups;
+  source.face_group = colors.own.face_group;
+  source.corner_color = high.corner_color;
+  if (!source.group_colors.empty() || !source.corner_color.empty()) return Done{};
+  return Error{ErrorKind::input, a.high,
+               fmt::format("it has no colours: none of its materials by UV set {}, and none of its "
+                           "vertices",
+                           a.high_texcoord),
+               "give --color-from FILE, or --high-texcoord"};
+}
+
+Result<BakeResult> bake_with_progress(BakeArguments& a, const Model& low,
+                                      const BakeSource& source) {
+  a.options.v_points_down = low.v_points_down;
+  if (!a.hard_edges) {
+    a.options.corner_normals = low.corner_normal;
+    a.options.corner_tangents = low.corner_tangent;
+  }
+  catch_interrupts();
+  ProgressLine line(!a.quiet);
+  a.options.progress = [&line](double share) {
+    line.show(fmt::format("baking {:3.0f} %", 100 * share));
+    return !interrupted();
+  };
+  auto result = bake(low.mesh, source, a.maps, a.options);
+  if (!result) {
+    Error error = result.error();
+    if (error.kind == ErrorKind::interrupted) {
+      return Error{error.kind, a.low, "stopped", "nothing was written"};
+    }
+    if (error.where == "low mesh") error.where = a.low;
+    if (error.where == "high mesh" || error.where == "color") error.where = a.high;
+    return error;
+  }
+  if (result->met) return result;
+  return Error{ErrorKind::input, a.low,
+               fmt::format("no ray from it met {} within {:.4g}", a.high, result->distance),
+               "lay the two over each other, facing alike, or give a larger --distance"};
+}
+
 int run(const CLI::App& app, BakeArguments& a) {
   const double start = seconds_now();
   if (const Status ok = resolve(app, a); !ok) return report_error(ok.error());
-  LoadOptions low_options;
-  low_options.texcoord_set = a.texcoord;
-  low_options.shading = low_options.in_scene = true;
-  const auto low = load_model(a.low, low_options);
+  const auto low = load_low(a);
   if (!low) return report_error(low.error());
-  LoadOptions high_options;
-  high_options.shading = true;
-  high_options.in_scene = true;
-  high_options.may_add_set = true;  // it need not have any
-  const auto high = load_model(a.high, high_options);
+  const auto high = load_high(a);
   if (!high) return report_error(high.error());
   if (const Status ok = check_files(a, *low, *high); !ok) return report_error(ok.error());
   BakeSource source;
   source.mesh = &high->mesh;
   source.v_points_down = high->v_points_down;
   if (!a.high_hard_edges) source.corner_normals = high->corner_normal;
-  if (!a.hard_edges) {
-    a.options.corner_normals = low->corner_normal;
-    a.options.corner_tangents = low->corner_tangent;
-  }
-  Texture color;
-  if (!a.color.empty()) {
-    auto loaded = load_texture(a.color);
-    if (!loaded) return report_error(loaded.error());
-    color = std::move(*loaded);
-    srgb_to_linear(color, a.options.threads);
-    source.color = &color;
-  }
-  BaseColors own;
-  const bool bakes_color = std::find(a.maps.begin(), a.maps.end(), BakedMap::color) != a.maps.end();
-  if (bakes_color && a.color.empty()) {
-    auto found = base_colors(*high, a.options.threads);
-    if (!found && high->corner_color.empty()) return report_error(found.error());
-    if (!found && !a.quiet) {
-      say("{}: note: baked from the colours of its vertices, without its textures: {}\n", a.high,
-          found.error().message());
-    }
-    if (found) own = *std::move(found);
-    source.group_colors = own.groups;
-    source.face_group = own.face_group;
-    source.corner_color = high->corner_color;
-    if (own.groups.empty() && high->corner_color.empty()) {
-      return report_error({ErrorKind::input, a.high,
-                           "it has no colours: none of its materials, and none of its vertices",
-                           "give --color-from FILE"});
+  HighColors colors;
+  if (std::find(a.maps.begin(), a.maps.end(), BakedMap::color) != a.maps.end()) {
+    if (const Status ok = add_colors(a, *high, colors, source); !ok) {
+      return report_error(ok.error());
     }
   }
-  a.options.v_points_down = low->v_points_down;
-  catch_interrupts();
   const double bake_start = seconds_now();
-  auto result = [&] {
-    ProgressLine line(!a.quiet);
-    a.options.progress = [&line](double share) {
-      line.show(fmt::format("baking {:3.0f} %", 100 * share));
-      return !interrupted();
-    };
-    return bake(low->mesh, source, a.maps, a.options);
-  }();
-  if (!result) {
-    Error error = result.error();
-    if (error.kind == ErrorKind::interrupted)
-      error = {error.kind, a.low, "stopped", "nothing was written"};
-    if (error.where == "low mesh") error.where = a.low;
-    if (error.where == "high mesh" || error.where == "color") error.where = a.high;
-    return report_error(error);
-  }
-  if (!result->met) {
-    return report_error(
-        {ErrorKind::input, a.low,
-         fmt::format("no ray from it met {} within {:.4g}", a.high, result->distance),
-         "lay the two over each other, facing alike, or give a larger --distance"});
-  }
+  auto result = bake_with_progress(a, *low, source);
+  if (!result) return report_error(result.error());
   const double baking = seconds_now() - bake_start;
   OutputTransaction outputs;
   for (std::size_t i = 0; i < a.maps.size(); ++i) {
@@ -221,6 +251,8 @@ Command make_bake_command(CLI::App& parser) {
              "What is farther away hides nothing, in units of the files; 0: no end");
   app.add_flag("--mips", a.mips, "Write the smaller levels too, as MAP.1.png, MAP.2.png, ...");
   add_texcoord(app, a.texcoord);
+  add_number(app, "--high-texcoord", a.high_texcoord, {0, 15},
+             "UV set by which the high model's colours are read, if it is a glTF");
   add_threads(app, a.options.threads);
   add_json(app, a.json);
   app.add_flag("--quiet", a.quiet, "No progress, no summary, no notes");

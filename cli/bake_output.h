@@ -18,7 +18,7 @@ struct BakeArguments {
   std::vector<std::string> also;  ///< "KIND=FILE"
   Resolution resolution;
   std::optional<double> hard_edges, high_hard_edges;  ///< degrees
-  int bits = 8, texcoord = 0;
+  int bits = 8, texcoord = 0, high_texcoord = 0;
   bool mips = false, quiet = false;
   BakeOptions options;
   std::vector<BakedMap> maps;

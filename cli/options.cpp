@@ -132,13 +132,13 @@ int threads_for(int asked) {
   return asked > 0 ? asked : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
 }
 
-Status check_texcoord(int texcoord, std::span<const std::string> inputs) {
+Status check_texcoord(int texcoord, std::span<const std::string> inputs, std::string_view option) {
   if (texcoord == 0) return Done{};
   for (const std::string& input : inputs) {
     const auto format = format_from_path(input);
     if (!format || *format == FileFormat::gltf || *format == FileFormat::glb) return Done{};
   }
-  return usage(fmt::format("--texcoord {}", texcoord),
+  return usage(fmt::format("{} {}", option, texcoord),
                fmt::format("{} can hold one UV set only", inputs.front()),
                "leave it out: only glTF files have several sets");
 }

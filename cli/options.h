@@ -88,7 +88,8 @@ void add_json(CLI::App& app, std::string& path);
 int threads_for(int asked);
 
 /// Only glTF has more than one UV set.
-Status check_texcoord(int texcoord, std::span<const std::string> inputs);
+Status check_texcoord(int texcoord, std::span<const std::string> inputs,
+                      std::string_view option = "--texcoord");
 
 /// An option that was given although nothing reads it here; the command may not have it at all.
 struct Ignored {

@@ -134,6 +134,53 @@ Json report_of(const RenderArguments& a, const Rendering& rendering,
   return report;
 }
 
+void summarize(const RenderArguments& a, const std::optional<Likeness>& likeness, double seconds) {
+  const std::string how_alike = likeness ? fmt::format("; beside {}: PSNR {:.2f} dB, SSIM {:.4f}",
+                                                       a.other, likeness->psnr, likeness->ssim)
+                                         : "";
+  say("{}: {}{}, {:.2f} s -> {}\n", a.input, quantity(std::size_t(a.options.views), "view"),
+      how_alike, seconds, a.output);
+}
+
+Result<std::optional<Model>> load_framed(const RenderArguments& a) {
+  if (a.framed.empty()) return std::optional<Model>();
+  LoadOptions options;
+  options.in_scene = true;
+  options.may_add_set = true;  // it need not have any
+  auto model = load_model(a.framed, options);
+  if (!model) return model.error();
+  return std::optional<Model>(*std::move(model));
+}
+
+/// What the model is drawn with, as RenderOptions points to it.
+struct Pictures {
+  MipMaps color, normals;
+  BaseColors own;
+};
+
+Status load_pictures(RenderArguments& a, const Model& model, Pictures& pictures) {
+  const bool textured = !a.texture.empty() || !a.normal_map.empty();
+  if (textured && model.mesh.texcoords.empty()) {
+    return Error{ErrorKind::input, a.input, "it has no UVs for a texture",
+                 "unwrap it first, or give the model that the texture was made for"};
+  }
+  const int threads = a.options.threads;
+  if (const Status ok = read_maps(a.texture, false, threads, pictures.color); !ok) return ok;
+  if (const Status ok = read_maps(a.normal_map, true, threads, pictures.normals); !ok) return ok;
+  if (!pictures.color.levels.empty()) a.options.color = &pictures.color;
+  if (!pictures.normals.levels.empty()) a.options.normals = &pictures.normals;
+  if (!a.texture.empty() || a.no_textures) return Done{};
+  auto found = base_colors(model, threads);
+  if (!found) {
+    say("{}: note: drawn without its textures: {}\n", a.input, found.error().message());
+    return Done{};
+  }
+  pictures.own = *std::move(found);
+  a.options.group_colors = pictures.own.groups;
+  a.options.face_group = pictures.own.face_group;
+  return Done{};
+}
+
 int run(const CLI::App& app, RenderArguments& a) {
   const double start = seconds_now();
   if (const Status ok = resolve(app, a); !ok) return report_error(ok.error());
@@ -142,43 +189,14 @@ int run(const CLI::App& app, RenderArguments& a) {
   load_options.shading = load_options.in_scene = true;
   const auto model = load_model(a.input, load_options);
   if (!model) return report_error(model.error());
-  std::optional<Model> framed;
-  if (!a.framed.empty()) {
-    LoadOptions framed_options;
-    framed_options.in_scene = true;
-    framed_options.may_add_set = true;  // it need not have any
-    auto other = load_model(a.framed, framed_options);
-    if (!other) return report_error(other.error());
-    framed = std::move(*other);
-    a.options.framed = &framed->mesh;
-  }
-  if (const Status ok = check_files(a, *model, framed ? &*framed : nullptr); !ok) {
+  const auto framed = load_framed(a);
+  if (!framed) return report_error(framed.error());
+  if (*framed) a.options.framed = &(*framed)->mesh;
+  if (const Status ok = check_files(a, *model, *framed ? &**framed : nullptr); !ok) {
     return report_error(ok.error());
   }
-  const bool textured = !a.texture.empty() || !a.normal_map.empty();
-  if (textured && model->mesh.texcoords.empty()) {
-    return report_error({ErrorKind::input, a.input, "it has no UVs for a texture",
-                         "unwrap it first, or give the model that the texture was made for"});
-  }
-  MipMaps color, normals;
-  if (const Status ok = read_maps(a.texture, false, a.options.threads, color); !ok) {
-    return report_error(ok.error());
-  }
-  if (const Status ok = read_maps(a.normal_map, true, a.options.threads, normals); !ok) {
-    return report_error(ok.error());
-  }
-  BaseColors own;
-  if (a.texture.empty() && !a.no_textures) {
-    auto found = base_colors(*model, a.options.threads);
-    if (!found) {
-      say("{}: note: drawn without its textures: {}\n", a.input, found.error().message());
-    }
-    if (found) own = *std::move(found);
-    a.options.group_colors = own.groups;
-    a.options.face_group = own.face_group;
-  }
-  if (!color.levels.empty()) a.options.color = &color;
-  if (!normals.levels.empty()) a.options.normals = &normals;
+  Pictures pictures;
+  if (const Status ok = load_pictures(a, *model, pictures); !ok) return report_error(ok.error());
   if (!a.hard_edges) {
     a.options.corner_normals = model->corner_normal;
     a.options.corner_tangents = model->corner_tangent;
@@ -202,12 +220,7 @@ int run(const CLI::App& app, RenderArguments& a) {
     }
   }
   if (const Status ok = outputs.commit(); !ok) return report_error(ok.error());
-  if (a.quiet) return 0;
-  const std::string how_alike = likeness ? fmt::format("; beside {}: PSNR {:.2f} dB, SSIM {:.4f}",
-                                                       a.other, likeness->psnr, likeness->ssim)
-                                         : "";
-  say("{}: {}{}, {:.2f} s -> {}\n", a.input, quantity(std::size_t(a.options.views), "view"),
-      how_alike, seconds, a.output);
+  if (!a.quiet) summarize(a, likeness, seconds);
   return 0;
 }
 

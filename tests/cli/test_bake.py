@@ -149,6 +149,19 @@ class Bake(support.CommandTest):
         self.bake("--map", "color", "--resolution", 8, high="same.glb")
         self.assertEqual(tuple(read_png(self.path("n.png"))[4][3][:3]), (255, 128, 0))
 
+    def test_colours_by_the_high_models_second_uvs(self):
+        maker = gltf_maker.two_uv_sets()
+        maker.textured_material()
+        base = maker.json["materials"][0]["pbrMetallicRoughness"]
+        base["baseColorTexture"]["texCoord"] = 1
+        maker.json["meshes"][0]["primitives"][0]["material"] = 0
+        self.write("can.glb", maker.glb())
+        bake = ("bake", "can.glb", "can.glb", "-o", "n.png", "--map", "color", "--resolution", 16)
+        self.refuse(3, ("can.glb", "UV set 0", "--high-texcoord"), *bake)
+        self.succeed(*bake, "--high-texcoord", 1)
+        self.assertEqual(tuple(read_png(self.path("n.png"))[4][3][:3]), (255, 255, 255))
+        self.refuse(3, ("can.glb", "no UV set TEXCOORD_2"), *bake, "--high-texcoord", 2)
+
     def test_keywords_of_an_obj_in_any_case(self):
         self.write("red.png", rgb_png(1, 1, lambda x, y: (255, 0, 0)))
         self.write("same.obj", "mtllib a.mtl\nusemtl a\n" + SQUARE)
@@ -269,6 +282,8 @@ class Bake(support.CommandTest):
             (("--bits", 9), "8 or 16"),
             (("--samples", 0), "out of range"),
             (("--texcoord", 1), "glTF"),
+            (("--high-texcoord", 1), "no colour is baked"),
+            (("--map", "color", "--high-texcoord", 1), "high.obj can hold one UV set only"),
         )
         for options, word in usage:
             with self.subTest(options=options):

@@ -105,7 +105,12 @@ Result<Model> load_high(const BakeArguments& a) {
   options.texcoord_set = a.high_texcoord;
   options.shading = options.in_scene = true;
   options.may_add_set = a.high_texcoord == 0;  // it need not have any
-  return load_model(a.high, options);
+  auto high = load_model(a.high, options);
+  if (high) return high;
+  Error error = high.error();
+  const std::size_t option = error.remedy.find("--texcoord");
+  if (option != std::string::npos) error.remedy.insert(option + 2, "high-");
+  return error;
 }
 
 /// What the colours in a BakeSource point to.

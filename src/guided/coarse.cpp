@@ -10,6 +10,8 @@ constexpr double kAimed = 0.85;  ///< efficiency at which the domain has CoarseO
 constexpr int kLongest = 16;     ///< times CoarseOptions::side: charts and domains up to that
 constexpr double kThinnest =
     1.5;  ///< cells; thinner charts are grown to it, that none slips through another
+/// Cells by which charts that hold each other are grown at a time, and at most.
+constexpr double kEnlarged = 0.5, kMostEnlarged = 3;
 constexpr double kLeastChance = 1e-3;
 constexpr int kFirstStride = 3;  ///< steps at a time until the first domain that was not filled
 /// Of a domain of any shape: the longest, as in the paper; by what power of two its aspect changes
@@ -116,7 +118,29 @@ Layout CoarseSearch::best(Vec2 lengths) {
   return layout;
 }
 
+bool CoarseSearch::enlarge(std::span<const std::size_t> charts) {
+  bool any = false;
+  for (const std::size_t chart : charts) {
+    if (library_->growth(chart) + kEnlarged > kMostEnlarged) continue;
+    library_->set_growth(chart, library_->growth(chart) + kEnlarged);
+    any = true;
+  }
+  if (!any) return false;
+  if (found()) from_ = best_;
+  domain_ = from_.domain;
+  best_.places.clear();
+  filled_.places.clear();
+  failures_ = 0;
+  stride_ = 1;
+  near_.clear();
+  return true;
+}
+
 void CoarseSearch::adopt(const CoarseSearch& other) {
+  for (std::size_t i = 0; i < shapes_.size(); ++i) {
+    if (library_->growth(i) == other.library_->growth(i)) continue;
+    library_->set_growth(i, other.library_->growth(i));
+  }
   best_ = filled_ = from_ = other.best_;
   gave_up_ = false;
   stride_ = 1;
@@ -204,11 +228,12 @@ void CoarseSearch::run(Effort& effort, bool until_stuck) {
     if (effort.spent()) break;
     if (filled_.places.empty()) {  // a hard set: more room
       constexpr double kMore = 1.1;
+      const double area = kMore * cells(domain_);
       from_ = {domain_, places};
       near_.clear();
-      first_area_ = kMore * cells(domain_);
-      gave_up_ = first_area_ > square(kLongest * options_.side);
-      domain_ = of_area(first_area_, aspect_);
+      first_area_ = std::max(first_area_, area);
+      gave_up_ = area > square(kLongest * options_.side);
+      domain_ = of_area(area, options_.any_shape ? aspect_of(domain_) : aspect_);
       continue;
     }
     if (++failures_ > options_.patience) {

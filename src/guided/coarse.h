@@ -45,7 +45,10 @@ class CoarseSearch {
   [[nodiscard]] Layout best(Vec2 lengths);
   /// Share of the domain that its charts cover, an estimate.
   [[nodiscard]] double efficiency() const;
-  /// Takes over a layout of the same charts and shape of domain.
+  /// Draws charts that held each other on a finer grid a little larger, and goes on from the best
+  /// layout, which is the best no more. False: they are drawn too large already.
+  bool enlarge(std::span<const std::size_t> charts);
+  /// Takes over a layout of the same charts and shape of domain, and what is drawn larger.
   void adopt(const CoarseSearch& other);
 
  private:

@@ -50,8 +50,8 @@ void search_assembly(std::span<const ChartShape> shapes, const PackOptions& opti
   Random random(options.seed);
   RefineOptions how;
   how.exact = true;
-  auto fine = refine(shapes, frame, options, assembly->layout, how, effort, random);
-  if (fine) record.offer(std::move(*fine), 1);
+  Refined fine = refine(shapes, frame, options, assembly->layout, how, effort, random);
+  if (fine.packing) record.offer(std::move(*fine.packing), 1);
 }
 
 /// What all ways begin with and report to.
@@ -78,23 +78,19 @@ struct Task {
   }
 };
 
-/// Of many charts some may fit nowhere on a coarse grid, and separation then comes to nothing. True
-/// if it does not, and has been run to its end. Else best fit has been, to begin from.
-bool separate_or_fit(Task& task, std::span<const ChartShape> shapes) {
+/// Of many charts some may fit nowhere on a coarse grid, and separation then comes to nothing, or
+/// to little before long. If so, best fit is asked for something to go on from.
+void fit_if_stuck(Task& task, std::span<const ChartShape> shapes, Lines& lines) {
   constexpr double kSuccess = 1.02, kShare = 0.4;  // of the time, for what may come to nothing
-  const double before = task.record.efficiency();
   if (task.frames.size() == 1) {
-    Lines lines(shapes, task.options, task.frames, task.record);
-    if (task.record.best()) lines.begin_with(*task.record.best(), false);
+    const double before = task.record.efficiency();
     lines.run_until_stuck(kShare);
-    if (task.record.efficiency() > kSuccess * before) {
-      lines.go_on();
-      return true;
-    }
+    if (task.record.efficiency() > kSuccess * before) return;
   }
   const std::span<const Frame> frames(task.frames);
   search_best_fit(shapes, task.options, frames.first(1), task.record, false);
-  return false;
+  if (task.record.best()) lines.begin_with(*task.record.best(), false);
+  lines.run_until_stuck();
 }
 
 void separate_few(Task& task) {
@@ -109,10 +105,14 @@ void separate_few(Task& task) {
   const bool is_short = task.record.timed() && task.options.time < enough;
   if (is_short) search_best_fit(shapes, task.options, task.frames, task.record, false);
   search_assembly(shapes, task.options, task.frames, task.record);
-  if (!is_short && shapes.size() > kFewCharts && separate_or_fit(task, shapes)) return;
   Lines lines(shapes, task.options, task.frames, task.record);
   if (task.record.best()) lines.begin_with(*task.record.best(), false);
-  lines.run();
+  if (!is_short && shapes.size() > kFewCharts) {
+    fit_if_stuck(task, shapes, lines);
+    lines.go_on();
+  } else {
+    lines.run();
+  }
 }
 
 void fit_many(Task& task) {

@@ -1,6 +1,7 @@
 #include "guided/lines.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <functional>
 #include <numeric>
@@ -77,15 +78,20 @@ Frame Lines::frame_of(const Line& line) const {
   return frame ? *frame : *line.frame;
 }
 
-void Lines::improve(Line& line, double least_efficiency, Effort& effort) {
-  if (!line.coarse.found() || line.coarse.efficiency() <= line.refined) return;
+bool Lines::improve(Line& line, double least_efficiency, Effort& effort) {
+  if (!line.coarse.found() || line.coarse.efficiency() <= line.refined) return false;
   const Frame frame = frame_of(line);
   const Layout layout = line.coarse.best(frame.lengths());
   RefineOptions how;
   how.least_scale = std::sqrt(least_efficiency * frame.texels() / total_area(shapes_));
-  auto fine = refine(shapes_, frame, options_, layout, how, effort, line.random);
-  if (fine || !effort.spent()) line.refined = line.coarse.efficiency();
-  if (fine) record_.offer(std::move(*fine), 1 + line.offers++ * begun_ + line.number);
+  Refined fine = refine(shapes_, frame, options_, layout, how, effort, line.random);
+  if (fine.packing || !effort.spent()) line.refined = line.coarse.efficiency();
+  if (fine.packing) {
+    record_.offer(std::move(*fine.packing), 1 + line.offers++ * begun_ + line.number);
+  }
+  if (fine.held.empty() || !line.coarse.enlarge(fine.held)) return false;
+  line.refined = 0;
+  return true;
 }
 
 /// Lets every line search in the given part of the whole time, an equal part each; or, of the moves
@@ -131,14 +137,16 @@ double Lines::end() const {
   return record_.timed() ? 1 - std::min(kRefineShare, kRefineSeconds / options_.time) : 1;
 }
 
-void Lines::improve_all(double share) {
+bool Lines::improve_all(double share) {
   // What comes a little short of the best may grow a little yet.
   constexpr double kGrowth = 0.95;
   const double least = kGrowth * record_.efficiency();
+  std::atomic<bool> enlarged{false};
   each_line([&](Line& line) {
     Effort effort = record_.effort(share);
-    improve(line, least, effort);
+    if (improve(line, least, effort)) enlarged = true;
   });
+  return enlarged;
 }
 
 void Lines::run() {
@@ -159,10 +167,12 @@ void Lines::run_until_stuck(double share) {
       keep_best(once() ? wanted : std::max(wanted, lines_.size() / 2));
       if (once()) break;
     }
-  } else {
-    spend(0, share * end(), true);
+    improve_all(1);
+    return;
   }
-  improve_all(std::min(1.0, share + kRefineShare));
+  do {
+    spend(0, share * end(), true);
+  } while (improve_all(std::min(1.0, share + kRefineShare)) && !record_.enough(share));
 }
 
 void Lines::go_on() {

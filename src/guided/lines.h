@@ -42,8 +42,9 @@ class Lines {
   void spend(double from, double to, bool until_stuck);
   [[nodiscard]] bool any_shape() const { return options_.aspect == Aspect::search; }
   [[nodiscard]] Frame frame_of(const Line& line) const;
-  void improve(Line& line, double least_efficiency, Effort& effort);
-  void improve_all(double share);
+  /// True: instead, some of its charts are drawn larger from now on.
+  bool improve(Line& line, double least_efficiency, Effort& effort);
+  bool improve_all(double share);
   /// Neither a time nor moves: it ends when it is stuck.
   [[nodiscard]] bool once() const { return !record_.timed() && options_.moves == 0; }
   void keep_best(std::size_t count);

@@ -40,14 +40,22 @@ PieceLibrary::PieceLibrary(std::span<const ChartShape> shapes, const RasterScale
                            int max_side, double least_thickness)
     : shapes_(shapes), scale_(scale), angles_(angles), max_side_(max_side), pieces_(shapes.size()) {
   const double cells_per_unit = std::max(scale.cells_per_unit.x, scale.cells_per_unit.y);
-  for (const ChartShape& shape : shapes) {
-    double radius = 0;
-    for (const Vec2 p : shape.raster.points) radius = std::max(radius, length(p));
-    const double missing = (least_thickness - shape.thickness * cells_per_unit) / 2;
-    growth_.push_back(std::max(scale.growth, missing));
-    const double longest = std::ceil(2 * (radius * cells_per_unit + growth_.back())) + 1;
-    reach_.push_back(static_cast<int>(std::min<double>(longest, max_side)));
+  growth_.resize(shapes.size());
+  reach_.resize(shapes.size());
+  for (std::size_t i = 0; i < shapes.size(); ++i) {
+    const double missing = (least_thickness - shapes[i].thickness * cells_per_unit) / 2;
+    set_growth(i, std::max(scale.growth, missing));
   }
+}
+
+void PieceLibrary::set_growth(std::size_t chart, double cells) {
+  double radius = 0;
+  for (const Vec2 p : shapes_[chart].raster.points) radius = std::max(radius, length(p));
+  const double cells_per_unit = std::max(scale_.cells_per_unit.x, scale_.cells_per_unit.y);
+  const double longest = std::ceil(2 * (radius * cells_per_unit + cells)) + 1;
+  growth_[chart] = cells;
+  reach_[chart] = static_cast<int>(std::min<double>(longest, max_side_));
+  pieces_[chart].clear();
 }
 
 const Piece& PieceLibrary::piece(std::size_t chart, int angle) {

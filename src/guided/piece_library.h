@@ -39,8 +39,12 @@ class PieceLibrary {
   [[nodiscard]] int angles() const { return angles_; }
   /// No piece of the chart is longer, at any angle.
   [[nodiscard]] int reach(std::size_t chart) const { return reach_[chart]; }
-  /// Stays valid for the life of the library.
+  /// Stays valid until the chart's growth is set.
   const Piece& piece(std::size_t chart, int angle);
+
+  /// Cells by which the chart is grown.
+  [[nodiscard]] double growth(std::size_t chart) const { return growth_[chart]; }
+  void set_growth(std::size_t chart, double cells);
 
  private:
   std::span<const ChartShape> shapes_;

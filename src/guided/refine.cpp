@@ -1,6 +1,7 @@
 #include "guided/refine.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "guided/wrapped.h"
 
@@ -8,6 +9,9 @@ namespace wrapatlas {
 namespace {
 
 constexpr double kLeastScale = 0.5;  ///< of the first scale: below it, the layout is given up
+/// Scales in a row that did not help: the overlap did not fall to this share of the least before.
+constexpr int kMostInVain = 5;
+constexpr double kHelped = 0.9;
 constexpr int kMostTurned = kAngleSteps / 128;  ///< about what a layout's angles are rounded to
 
 /// Turns charts that cannot lie in the domain at their angle, as a long one that winds around the
@@ -30,18 +34,20 @@ bool turn_to_fit(Layout& layout, PieceLibrary& library, const Domain& domain,
 
 }  // namespace
 
-std::optional<Packing> refine(std::span<const ChartShape> shapes, const Frame& frame,
-                              const PackOptions& options, const Layout& start,
-                              const RefineOptions& how, Effort& effort, Random& random) {
+Refined refine(std::span<const ChartShape> shapes, const Frame& frame, const PackOptions& options,
+               const Layout& start, const RefineOptions& how, Effort& effort, Random& random) {
   const Domain domain = domain_of(frame, options.wrap);
   SeparateOptions separate;
   separate.window = how.window;
   separate.stall_rounds = how.stall_rounds;
   separate.angle_step = 12;
   const double area = total_area(shapes);
-  std::optional<Packing> best;
+  Refined refined;
+  std::optional<Packing>& best = refined.packing;
   Layout layout = start, good;
   double step = how.first_step;
+  double least = std::numeric_limits<double>::max();  // overlap at any scale
+  int in_vain = 0;
   while (!effort.spent()) {
     PieceLibrary library(shapes, raster_scale_on(frame, layout.scale, options.coverage),
                          kAngleSteps, kLongestInDomains * std::max(frame.width, frame.height));
@@ -62,7 +68,16 @@ std::optional<Packing> refine(std::span<const ChartShape> shapes, const Frame& f
                           covered_cells);
     } else if (!best) {
       // The next attempt begins where this one came closest.
-      if (fits && !how.exact) layout.spots = to_spots(places, library, domain);
+      if (fits && !how.exact) {
+        layout.spots = to_spots(places, library, domain);
+        const auto overlap = static_cast<double>(separator.least());
+        in_vain = overlap < kHelped * least ? 0 : in_vain + 1;
+        least = std::min(least, overlap);
+        if (in_vain == kMostInVain) {
+          refined.held = separator.overlapping();
+          break;
+        }
+      }
       layout.scale *= 1 - how.first_step;
       if (layout.scale < std::max(how.least_scale, kLeastScale * start.scale)) break;
       continue;
@@ -73,7 +88,7 @@ std::optional<Packing> refine(std::span<const ChartShape> shapes, const Frame& f
     }
     layout.scale = good.scale * (1 + step);
   }
-  return best;
+  return refined;
 }
 
 }  // namespace wrapatlas

@@ -22,10 +22,14 @@ struct RefineOptions {
   bool exact = false;  ///< the layout is right but for its scale: each attempt begins with it anew
 };
 
-/// The layout, slightly moved, at the largest scale at which it is valid on the final grid. Nothing
-/// if the effort was spent before one was found, or there is none.
-std::optional<Packing> refine(std::span<const ChartShape> shapes, const Frame& frame,
-                              const PackOptions& options, const Layout& start,
-                              const RefineOptions& how, Effort& effort, Random& random);
+struct Refined {
+  std::optional<Packing> packing;  ///< nothing: the effort was spent before, or there is none
+  /// Charts that hold each other, as a hook in a ring, so that no scale helps, if that is why.
+  std::vector<std::size_t> held;
+};
+
+/// The layout, slightly moved, at the largest scale at which it is valid on the final grid.
+Refined refine(std::span<const ChartShape> shapes, const Frame& frame, const PackOptions& options,
+               const Layout& start, const RefineOptions& how, Effort& effort, Random& random);
 
 }  // namespace wrapatlas

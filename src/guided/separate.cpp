@@ -73,6 +73,14 @@ bool Separator::overlaps(std::size_t chart) const {
   return false;
 }
 
+std::vector<std::size_t> Separator::overlapping() const {
+  std::vector<std::size_t> charts;
+  for (std::size_t i = 0; i < count_; ++i) {
+    if (overlaps(i)) charts.push_back(i);
+  }
+  return charts;
+}
+
 std::int64_t Separator::total() const {
   std::int64_t sum = 0;
   for (std::size_t i = 0; i < count_; ++i) {
@@ -193,10 +201,7 @@ bool Separator::run(std::vector<Place>& places, const SeparateOptions& options, 
   least_ = total();
   std::vector<std::size_t> order;
   for (int stall = 0; least_ > 0 && stall < options.stall_rounds; ++stall) {
-    order.clear();
-    for (std::size_t i = 0; i < count_; ++i) {
-      if (overlaps(i)) order.push_back(i);
-    }
+    order = overlapping();
     shuffle(order, random_);
     for (const std::size_t chart : order) {
       if (!overlaps(chart)) continue;

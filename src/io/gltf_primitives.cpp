@@ -58,7 +58,7 @@ class Reader {
       return file_.error("",
                          fmt::format("{} would follow on {}, which {} of its primitives lack",
                                      contents_.texcoord_name, set_before_, without_set_before_),
-                         "give those faces UVs first, or write another set");
+                         "leave out --texcoord, or give those faces UVs first");
     }
     if (texcoord_names_.empty()) {
       return file_.error("",
@@ -66,7 +66,8 @@ class Reader {
                          "unwrap it first");
     }
     return file_.error("", fmt::format("it has no UV set {}", contents_.texcoord_name),
-                       fmt::format("choose one that it has: {}", fmt::join(texcoord_names_, ", ")));
+                       fmt::format("it has {}: choose one by --texcoord and its number",
+                                   fmt::join(texcoord_names_, ", ")));
   }
 
   void remark(std::vector<std::string>& remarks) const {

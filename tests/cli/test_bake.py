@@ -160,7 +160,8 @@ class Bake(support.CommandTest):
         self.refuse(3, ("can.glb", "UV set 0", "--high-texcoord"), *bake)
         self.succeed(*bake, "--high-texcoord", 1)
         self.assertEqual(tuple(read_png(self.path("n.png"))[4][3][:3]), (255, 255, 255))
-        self.refuse(3, ("can.glb", "no UV set TEXCOORD_2"), *bake, "--high-texcoord", 2)
+        self.refuse(3, ("can.glb", "no UV set TEXCOORD_2", "by --high-texcoord"), *bake,
+                    "--high-texcoord", 2)
 
     def test_keywords_of_an_obj_in_any_case(self):
         self.write("red.png", rgb_png(1, 1, lambda x, y: (255, 0, 0)))

@@ -194,6 +194,14 @@ class Shapes(support.CommandTest):
 
 
 class SameBytes(support.CommandTest):
+    def test_charts_that_hold_each_other_on_a_coarse_grid(self):
+        """Hooks in rings and combs in frames, where cells are as large as they are thick."""
+        self.sample("machine.obj")
+        report = self.report("pack", "machine.obj", "-o", "out.obj", "--quiet", "--padding", 2,
+                             "--resolution", 1024, "--time", 0)
+        self.assertGreater(report["efficiency"], 0.53)
+        self.assertTrue(self.check("out.obj", "machine.obj", "--wrap", "uv", resolution=1024)["ok"])
+
     def test_runs_and_threads(self):
         for name in PACKABLE:
             self.sample(name)

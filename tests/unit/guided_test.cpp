@@ -233,18 +233,20 @@ PackOptions guided_options() {
 }
 
 TEST(Guided, MovesGiveTheSameBitsForAnyNumberOfThreads) {
-  const std::vector<Chart> charts = test::mixed_charts(7, 10);
-  PackOptions options = guided_options();
-  options.moves = 400;
-  options.threads = 1;
-  const auto one = pack(charts, options);
-  options.threads = 3;
-  const auto three = pack(charts, options);
-  ASSERT_TRUE(one && three);
-  EXPECT_EQ(one->scale, three->scale);
-  for (std::size_t i = 0; i < charts.size(); ++i) {
-    EXPECT_EQ(one->placements[i].angle, three->placements[i].angle);
-    EXPECT_EQ(one->placements[i].translation, three->placements[i].translation);
+  for (const int count : {10, 50}) {
+    const std::vector<Chart> charts = test::mixed_charts(7, count);
+    PackOptions options = guided_options();
+    options.moves = 40 * count;
+    options.threads = 1;
+    const auto one = pack(charts, options);
+    options.threads = 3;
+    const auto three = pack(charts, options);
+    ASSERT_TRUE(one && three);
+    EXPECT_EQ(one->scale, three->scale);
+    for (std::size_t i = 0; i < charts.size(); ++i) {
+      EXPECT_EQ(one->placements[i].angle, three->placements[i].angle);
+      EXPECT_EQ(one->placements[i].translation, three->placements[i].translation);
+    }
   }
 }
 

@@ -94,6 +94,21 @@ TEST(PieceLibrary, NothingSlipsThroughThinCharts) {
   }
 }
 
+TEST(PieceLibrary, AGrownChartCoversMore) {
+  const auto shapes = make_shapes(std::vector<Chart>(2, test::rectangle(1, 0.5)));
+  PieceLibrary library(shapes, cells(40), 16, 1000);
+  const std::int64_t before = library.piece(0, 0).cells, other = library.piece(1, 0).cells;
+  const int reach = library.reach(0);
+  EXPECT_EQ(library.growth(0), 0);
+  library.set_growth(0, 2);
+  EXPECT_EQ(library.growth(0), 2);
+  // Two cells wider to each side, round at the corners.
+  EXPECT_GT(library.piece(0, 0).cells, before + 2 * 2 * (40 + 20));
+  EXPECT_LE(library.piece(0, 0).cells, 44 * 24);
+  EXPECT_EQ(library.reach(0), reach + 4);
+  EXPECT_EQ(library.piece(1, 0).cells, other);
+}
+
 TEST(Separator, LeavesTheOverlapItSays) {
   const auto shapes = random_shapes(1, 11);
   PieceLibrary library(shapes, cells(12), 64, 400);
@@ -180,6 +195,35 @@ TEST(CoarseSearch, ItsBestLayoutIsOneAndGetsNoWorse) {
     other.run(effort, false);
     EXPECT_GE(other.efficiency(), last);
   }
+}
+
+TEST(CoarseSearch, LeavesRoomAroundChartsThatHeldEachOther) {
+  const auto shapes = random_shapes(3, 8);
+  const Vec2 lengths{70, 70};
+  CoarseSearch search(shapes, lengths, true, true, {.side = 96}, 7);
+  const auto run = [&] {
+    Effort effort(nullptr);
+    effort.moves(6000);
+    search.run(effort, false);
+  };
+  run();
+  ASSERT_TRUE(search.found());
+  const double before = search.efficiency();
+  const std::vector<std::size_t> all{0, 1, 2, 3, 4, 5, 6, 7}, first{0};
+  for (int i = 0; i < 4; ++i) ASSERT_TRUE(search.enlarge(all));
+  EXPECT_FALSE(search.found());
+  run();
+  ASSERT_TRUE(search.found());
+  EXPECT_LT(search.efficiency(), before);
+  Layout layout = search.best(lengths);
+  EXPECT_EQ(overlapping_share(shapes, layout, lengths, 3), 0);
+  layout.scale *= 1.02;  // as there is room to each side
+  EXPECT_EQ(overlapping_share(shapes, layout, lengths, 3), 0);
+  CoarseSearch other(shapes, lengths, true, true, {.side = 96}, 8);
+  other.adopt(search);
+  EXPECT_EQ(other.efficiency(), search.efficiency());
+  int times = 0;
+  while (search.enlarge(first)) ASSERT_LT(++times, 10);
 }
 
 /// Two bars fill a domain of 2:1 between them, and half a square.

@@ -20,6 +20,8 @@ constexpr double kLikely = 0.8;       ///< a factor that most often succeeds
 constexpr double kSmallest = 1e-3;    ///< give up when not even this does
 /// From so many charts on what fits at one scale also fits at smaller ones, as good as always.
 constexpr std::size_t kMany = 2000;
+/// Up to so many an attempt that fails is made once more, with the chart that was left out earlier.
+constexpr std::size_t kFew = 200;
 
 class BestFitSearch {
  public:
@@ -36,7 +38,7 @@ class BestFitSearch {
     for (const ChartShape& shape : shapes_) {
       angles_.push_back(best_fit_angles(shape.base_angle, options.rotations));
     }
-    by_extent_ = order_of(0);
+    order_ = order_of(0);
   }
 
   void find_scale() {
@@ -115,6 +117,7 @@ class BestFitSearch {
   /// The largest of the factors that succeeds, or their number.
   std::size_t try_all(const std::array<double, kAtOnce>& factors) {
     std::array<std::atomic<bool>, kAtOnce> succeeded{};
+    std::array<std::vector<std::uint32_t>, kAtOnce> orders;
     // The largest first: once it succeeds the others need not.
     parallel_for(kAtOnce, thread_count(options_.threads), [&](std::size_t k) {
       const std::size_t i = kAtOnce - 1 - k;
@@ -125,18 +128,32 @@ class BestFitSearch {
         return done();
       };
       if (has_failed(factors[i])) return;
-      double placed = 0;
-      succeeded[i] = attempt(factors[i], by_extent_, stop, &placed);
-      if (!succeeded[i] && !stop()) note_failure(factors[i], placed);
+      orders[i] = order_;
+      HowFar how_far;
+      succeeded[i] = attempt(factors[i], orders[i], stop, &how_far);
+      if (!succeeded[i] && how_far.left_out && shapes_.size() <= kFew) {
+        bring_forward(orders[i], *how_far.left_out);
+        succeeded[i] = attempt(factors[i], orders[i], stop);
+      }
+      if (!succeeded[i] && !stop()) note_failure(factors[i], how_far.placed);
     });
     settle();
     for (std::size_t i = kAtOnce; i-- > 0;) {
-      if (succeeded[i]) return i;
+      if (!succeeded[i]) continue;
+      if (orders[i] != order_) failed_.clear();
+      order_ = orders[i];
+      return i;
     }
     return kAtOnce;
   }
 
-  /// In the order of by_extent_, in which it would fail again.
+  /// A chart comes when half of those before it are placed.
+  static void bring_forward(std::vector<std::uint32_t>& order, std::uint32_t chart) {
+    const auto at = std::find(order.begin(), order.end(), chart);
+    std::rotate(order.begin() + (at - order.begin()) / 2, at, at + 1);
+  }
+
+  /// In this order, in which it would fail again.
   [[nodiscard]] bool has_failed(double factor) {
     const std::lock_guard lock(mutex_);
     return std::any_of(failed_.begin(), failed_.end(),
@@ -154,9 +171,9 @@ class BestFitSearch {
 
   template <typename Stop>
   bool attempt(double factor, const std::vector<std::uint32_t>& order, Stop stop,
-               double* placed = nullptr) {
+               HowFar* how_far = nullptr) {
     if (factor <= best_factor_) return false;
-    auto filling = fill_pages(task(), factor * full_scale_, order, options_.pages, stop, placed);
+    auto filling = fill_pages(task(), factor * full_scale_, order, options_.pages, stop, how_far);
     if (!filling) return false;
     const std::lock_guard lock(mutex_);
     if (factor > found_factor_) {
@@ -179,7 +196,7 @@ class BestFitSearch {
   double share_;
   double area_ = 0, full_scale_ = 0;
   std::vector<std::vector<double>> angles_;
-  std::vector<std::uint32_t> by_extent_;
+  std::vector<std::uint32_t> order_;  ///< by extent, but for charts that had to be brought forward
   std::mutex mutex_;
   double best_factor_ = 0, found_factor_ = 0;
   std::vector<double> failed_;  ///< factors

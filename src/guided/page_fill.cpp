@@ -70,7 +70,7 @@ std::vector<std::uint32_t> order_by_extent(std::span<const ChartShape> shapes,
 
 std::optional<PageFilling> fill_pages(const PageTask& task, double scale,
                                       std::span<const std::uint32_t> order, int most,
-                                      const std::function<bool()>& stop, double* placed) {
+                                      const std::function<bool()>& stop, HowFar* how_far) {
   PageFilling filling;
   filling.placements.resize(task.shapes.size());
   std::vector<std::uint32_t> rest(order.begin(), order.end()), next;
@@ -103,7 +103,10 @@ std::optional<PageFilling> fill_pages(const PageTask& task, double scale,
         if (!spot) patience.failed(shape.extent);
       }
       if (!spot) {
-        if (last) return {};
+        if (last) {
+          if (how_far != nullptr) how_far->left_out = chart;
+          return {};
+        }
         next.push_back(chart);
         continue;
       }
@@ -112,7 +115,7 @@ std::optional<PageFilling> fill_pages(const PageTask& task, double scale,
       filling.placements[chart].page = pages;
       taken += spot->cells;
       rest_cells -= least;
-      if (placed != nullptr) *placed += shape.area;
+      if (how_far != nullptr) how_far->placed += shape.area;
     }
     filling.cells.push_back(taken);
     rest.swap(next);

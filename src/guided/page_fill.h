@@ -32,14 +32,20 @@ struct PageFilling {
   [[nodiscard]] std::int64_t covered() const;
 };
 
+/// What an attempt that failed tells.
+struct HowFar {
+  double placed = 0;                      ///< area of the charts that were placed, input units^2
+  std::optional<std::uint32_t> left_out;  ///< the chart that the last page had no room for
+};
+
 /// Fills one page after the other: each gets, in the given order (by decreasing extent, roughly),
 /// what it has room for. So every chart is on the first page that had room for it, but for those
 /// that were not tried where others of their size had failed. Nothing if a chart is left after
 /// `most` pages (0: any number), if one does not fit on an empty page, or if `stop` says so.
-/// `placed`: the area of the charts that were placed, in input units, whatever came of it.
+/// `how_far`: filled whatever comes of it, if not null.
 std::optional<PageFilling> fill_pages(const PageTask& task, double scale,
                                       std::span<const std::uint32_t> order, int most,
-                                      const std::function<bool()>& stop, double* placed = nullptr);
+                                      const std::function<bool()>& stop, HowFar* how_far = nullptr);
 
 /// Charts by decreasing extent, thin rings and arcs before what has room inside them; blurred a
 /// little if `blur` is not 0.

@@ -240,7 +240,11 @@ TEST(Pages, AFillingIsFirstFit) {
     EXPECT_EQ(filling->placements[i].page, expected[i]) << i;
   }
   EXPECT_TRUE(fill_pages(task, 100, order, 2, [] { return false; }));
-  EXPECT_FALSE(fill_pages(task, 100, order, 1, [] { return false; }));
+  HowFar how_far;
+  EXPECT_FALSE(fill_pages(
+      task, 100, order, 1, [] { return false; }, &how_far));
+  EXPECT_EQ(how_far.left_out, 4U);
+  EXPECT_NEAR(how_far.placed, 0.64, 1e-9);
   EXPECT_FALSE(fill_pages(task, 100, order, 0, [] { return true; }));
 }
 

@@ -61,7 +61,7 @@ class Mesh(_core.Mesh):
     def to_trimesh(self) -> trimesh.Trimesh:
         """A trimesh.Trimesh with these UVs: vertices are repeated along seams. Needs trimesh.
 
-        trimesh has v up, so that of a mesh from glTF is turned round.
+        trimesh has v up, so that of a mesh from glTF is turned round. ImportError without trimesh.
         """
         triangles = self.triangulated()
         if len(self.uv) == 0:

@@ -41,7 +41,7 @@ class Packing(_core.PackedMesh):
 
     @property
     def positions(self) -> npt.NDArray[np.float64]:
-        """(N, 3) float64: where each new vertex is in space."""
+        """(N, 3) float64: where each new vertex is in space. UsageError where pack was given none."""
         if not self.source._has_space:
             raise UsageError("positions: none were given; pass positions= to pack")
         return self.interpolate(self.source.positions)
@@ -76,6 +76,7 @@ class Packing(_core.PackedMesh):
 
         values: (P,) or (P, k), one row for each position of the source.
         Returns (N,) or (N, k) float64. With export="cut" new vertices on cuts get means.
+        UsageError for values of another shape, or not numbers.
         """
         rows = np.asarray(floats("values", values), np.float64)
         if rows.ndim not in (1, 2) or len(rows) != len(self.source.positions):
@@ -95,6 +96,7 @@ class Packing(_core.PackedMesh):
         size: pixels along the longer side of a page, 16 to 8192; fewer where the picture would be
             longer than 16384.
         tiles: draw it twice along each axis that wraps, to show how it goes on.
+        UsageError for a size out of range.
         """
         return as_picture(self._draw(_picture_size(size), tiles))
 
@@ -116,7 +118,7 @@ class Packing(_core.PackedMesh):
         """A trimesh.Trimesh with the new UVs, its vertices in the order of vmapping. Needs trimesh.
 
         With UVs beyond 1 (where the atlas wraps) textures have to repeat, which is what renderers
-        of trimesh's exports do.
+        of trimesh's exports do. ImportError without trimesh, UsageError without positions.
         """
         uv = np.array(self.uv, np.float64)
         if self.source.v_points_down:

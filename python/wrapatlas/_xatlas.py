@@ -67,8 +67,9 @@ class Atlas:
     ) -> None:
         """Adds a mesh whose charts are to be packed again.
 
-        uvs: (N, 2). indices: (F, 3). face_materials: (F,) or (F, 1): faces of different ones are of different
-        charts. Faces hang together where their UVs are equal.
+        uvs: (N, 2). indices: (F, 3). face_materials: (F,) or (F, 1): faces of different ones are
+        of different charts. Faces hang together where their UVs are equal. UsageError for arrays of
+        other shapes, indices out of range, and where the atlas has meshes added by add_mesh.
         """
         coordinates = rows("uvs", uvs, 2)
         faces = triangles("indices", indices, len(coordinates))
@@ -207,12 +208,12 @@ class Atlas:
         self, mesh_index: int
     ) -> tuple[npt.NDArray[np.uint32], npt.NDArray[np.uint32]]:
         """(N,) uint32 each: the atlas and the chart of each vertex. Charts are numbered over all
-        meshes."""
+        meshes. Raises IndexError."""
         mesh = self._output(mesh_index)
         return mesh.vertex_atlas.copy(), mesh.vertex_chart.copy()
 
     def get_mesh_chart_count(self, mesh_index: int) -> int:
-        """Charts of a mesh."""
+        """Charts of a mesh. Raises IndexError."""
         return len(np.unique(self._output(mesh_index).face_chart))
 
     def get_mesh_chart(self, mesh_index: int, chart_index: int) -> Chart:

@@ -37,7 +37,10 @@ class Joined:
 
 
 def evaluate(meshes: str, out: str, methods: List[str], options: List[str], **batch: Any) -> Tuple[Summary, Joined]:
-    """Runs `bench` with `options` on each mesh by each method, `batch` as for `run`; joins the parts."""
+    """Runs `bench` with `options` on each mesh by each method, `batch` as for `run`; joins the parts.
+
+    Raises UsageError (wrong arguments, `out` not local) and BatchError (what cannot be read or written).
+    """
     if not is_local(out):
         raise UsageError(f"{out}: the results of an evaluation are joined in a local folder")
     out = local_path(out)

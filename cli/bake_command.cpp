@@ -141,27 +141,28 @@ Status add_colors(const BakeArguments& a, const Model& high, HighColors& colors,
   source.face_group = colors.own.face_group;
   source.corner_color = high.corner_color;
   if (!source.group_colors.empty() || !source.corner_color.empty()) return Done{};
+  const bool has_sets = high.format == FileFormat::gltf || high.format == FileFormat::glb;
   return Error{ErrorKind::input, a.high,
-               fmt::format("it has no colours: none of its materials by UV set {}, and none of its "
-                           "vertices",
-                           a.high_texcoord),
-               "give --color-from FILE, or --high-texcoord"};
+               fmt::format("it has no colours: none of its materials{}, and none of its vertices",
+                           has_sets ? fmt::format(" by UV set {}", a.high_texcoord) : ""),
+               has_sets ? "give --color-from FILE, or --high-texcoord" : "give --color-from FILE"};
 }
 
-Result<BakeResult> bake_with_progress(BakeArguments& a, const Model& low,
+Result<BakeResult> bake_with_progress(const BakeArguments& a, const Model& low,
                                       const BakeSource& source) {
-  a.options.v_points_down = low.v_points_down;
+  BakeOptions options = a.options;
+  options.v_points_down = low.v_points_down;
   if (!a.hard_edges) {
-    a.options.corner_normals = low.corner_normal;
-    a.options.corner_tangents = low.corner_tangent;
+    options.corner_normals = low.corner_normal;
+    options.corner_tangents = low.corner_tangent;
   }
   catch_interrupts();
   ProgressLine line(!a.quiet);
-  a.options.progress = [&line](double share) {
+  options.progress = [&line](double share) {
     line.show(fmt::format("baking {:3.0f} %", 100 * share));
     return !interrupted();
   };
-  auto result = bake(low.mesh, source, a.maps, a.options);
+  auto result = bake(low.mesh, source, a.maps, options);
   if (!result) {
     Error error = result.error();
     if (error.kind == ErrorKind::interrupted) {

@@ -41,7 +41,7 @@ class Packing(_core.PackedMesh):
 
     @property
     def positions(self) -> npt.NDArray[np.float64]:
-        """(N, 3) float64: where each new vertex is in space. UsageError where pack was given none."""
+        """(N, 3) float64: each new vertex in space. UsageError where pack was given none."""
         if not self.source._has_space:
             raise UsageError("positions: none were given; pass positions= to pack")
         return self.interpolate(self.source.positions)

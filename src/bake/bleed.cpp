@@ -7,12 +7,6 @@
 #include "threads/parallel.h"
 
 namespace wrapatlas {
-namespace {
-
-/// A triangle that is stretched more than this says nothing of what is beside it.
-constexpr double kMostStretch = 3;
-
-}  // namespace
 
 Result<Bleed> Bleed::build(const Mesh& triangles, const TexelSamples& samples, int width,
                            int height, Wrap wrap, double texels) {
@@ -45,9 +39,7 @@ bool Bleed::find(const Outermost& from, Vec2 by, BeyondBorder& place) const {
   const Vec2 way = start + from.to_centre + by - at(place.border_weights);
   const Triangle t = triangle_of(*mesh_, place.chart_triangle);
   const Vec3 in_space = along_surface(t, corner, way);
-  const double area = length(cross(t[1] - t[0], t[2] - t[0]));
-  const double texels = std::abs(signed_area2(corner[0], corner[1], corner[2]));
-  if (!(length(in_space) <= kMostStretch * length(way) * std::sqrt(area / texels))) return false;
+  if (!(length(in_space) <= farthest_along(t, corner, length(way)))) return false;
   place.end = walk_->go(place.chart_triangle, place.border_weights, in_space);
   return true;
 }

@@ -101,7 +101,7 @@ double HighSurface::openness(const HighPoint& point, int rays, double farthest,
     const double radius = std::sqrt(a), angle = 2 * std::numbers::pi * b;
     const Vec3 direction = radius * std::cos(angle) * across + radius * std::sin(angle) * along +
                            std::sqrt(1 - a) * up;
-    if (!scene_.is_blocked(origin, direction, 0, end)) ++open;
+    if (!scene_.is_blocked(origin, direction, end)) ++open;
   }
   return double(open) / rays;
 }

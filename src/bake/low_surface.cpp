@@ -1,7 +1,5 @@
 #include "bake/low_surface.h"
 
-#include <cmath>
-
 #include "mesh/polygon_plane.h"
 
 namespace wrapatlas {
@@ -11,11 +9,8 @@ namespace {
 /// far away ends there.
 Vec3 continued(const Triangle& triangle, const std::array<Vec2, 3>& on_texels,
                const TexelSample& sample, const std::array<double, 3>& nearest) {
-  constexpr double kMostStretch = 3;
   const Vec3 there = point_at(triangle, sample.weights), border = point_at(triangle, nearest);
-  const double area = length(cross(triangle[1] - triangle[0], triangle[2] - triangle[0]));
-  const double texels = std::abs(signed_area2(on_texels[0], on_texels[1], on_texels[2]));
-  const double farthest = kMostStretch * sample.distance * std::sqrt(area / texels);
+  const double farthest = farthest_along(triangle, on_texels, sample.distance);
   return length(there - border) <= farthest ? there : border;
 }
 

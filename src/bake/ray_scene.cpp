@@ -37,7 +37,7 @@ Error embree_error(const std::string& what) {
 
 float to_float(double value) { return static_cast<float>(value); }
 
-RTCRay ray_of(const Vec3& origin, const Vec3& direction, double nearest, double farthest) {
+RTCRay ray_of(const Vec3& origin, const Vec3& direction, double farthest) {
   RTCRay ray{};
   ray.org_x = to_float(origin.x);
   ray.org_y = to_float(origin.y);
@@ -45,7 +45,7 @@ RTCRay ray_of(const Vec3& origin, const Vec3& direction, double nearest, double 
   ray.dir_x = to_float(direction.x);
   ray.dir_y = to_float(direction.y);
   ray.dir_z = to_float(direction.z);
-  ray.tnear = to_float(nearest);
+  ray.tnear = 0;
   ray.tfar = to_float(farthest);
   ray.mask = 0xffffffffU;
   return ray;
@@ -153,7 +153,7 @@ std::optional<SurfacePoint> RayScene::first_hit(const Vec3& origin, const Vec3& 
                                                 double farthest, const Vec3& facing) const {
   const double unit = parts_->diagonal;
   RTCRayHit found{};
-  found.ray = ray_of(parts_->inside(origin), direction, 0, farthest / unit);
+  found.ray = ray_of(parts_->inside(origin), direction, farthest / unit);
   found.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   found.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
   RayContext context{{}, parts_->mesh, facing};
@@ -165,10 +165,9 @@ std::optional<SurfacePoint> RayScene::first_hit(const Vec3& origin, const Vec3& 
   return SurfacePoint{found.hit.primID, {1 - u - v, u, v}, unit * found.ray.tfar};
 }
 
-bool RayScene::is_blocked(const Vec3& origin, const Vec3& direction, double nearest,
-                          double farthest) const {
+bool RayScene::is_blocked(const Vec3& origin, const Vec3& direction, double farthest) const {
   const double unit = parts_->diagonal;
-  RTCRay ray = ray_of(parts_->inside(origin), direction, nearest / unit, farthest / unit);
+  RTCRay ray = ray_of(parts_->inside(origin), direction, farthest / unit);
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   rtcOccluded1(parts_->scene, &context, &ray);

@@ -35,9 +35,8 @@ class RayScene {
   [[nodiscard]] std::optional<SurfacePoint> first_hit(const Vec3& origin, const Vec3& direction,
                                                       double farthest,
                                                       const Vec3& facing = {}) const;
-  /// Whether there is anything along a ray, from `nearest` on.
-  [[nodiscard]] bool is_blocked(const Vec3& origin, const Vec3& direction, double nearest,
-                                double farthest) const;
+  /// Whether there is anything along a ray, up to `farthest`.
+  [[nodiscard]] bool is_blocked(const Vec3& origin, const Vec3& direction, double farthest) const;
   [[nodiscard]] std::optional<SurfacePoint> nearest_point(const Vec3& place,
                                                           const Vec3& facing = {}) const;
 

@@ -1,6 +1,7 @@
 #include "bake/triangle_point.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace wrapatlas {
 namespace {
@@ -18,6 +19,13 @@ Vec3 along_surface(const Triangle& t, const std::array<Vec2, 3>& flat, Vec2 way)
   const double area = signed_area2(flat[0], flat[1], flat[2]);
   const double b = cross(flat[0] - flat[2], way) / area, c = cross(flat[1] - flat[0], way) / area;
   return b * (t[1] - t[0]) + c * (t[2] - t[0]);
+}
+
+double farthest_along(const Triangle& t, const std::array<Vec2, 3>& flat, double way) {
+  constexpr double kMostStretch = 3;
+  const double area = length(cross(t[1] - t[0], t[2] - t[0]));
+  const double in_plane = std::abs(signed_area2(flat[0], flat[1], flat[2]));
+  return kMostStretch * way * std::sqrt(area / in_plane);
 }
 
 std::array<double, 3> nearest_weights(const Triangle& t, const Vec3& p) {

@@ -23,6 +23,11 @@ inline Vec3 point_at(const Triangle& t, const std::array<double, 3>& weights) {
 /// which the area must not be 0.
 Vec3 along_surface(const Triangle& t, const std::array<Vec2, 3>& flat, Vec2 way);
 
+/// How far a way of this length in the plane may lead in space: three times as far as it does in
+/// the mean. A triangle that is stretched more says nothing of what is beside it. Precondition:
+/// that of along_surface().
+double farthest_along(const Triangle& t, const std::array<Vec2, 3>& flat, double way);
+
 /// The weights of the triangle's point that is nearest to `p`. Triangles without area as well.
 std::array<double, 3> nearest_weights(const Triangle& t, const Vec3& p);
 

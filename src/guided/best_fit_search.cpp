@@ -153,7 +153,7 @@ class BestFitSearch {
     std::rotate(order.begin() + (at - order.begin()) / 2, at, at + 1);
   }
 
-  /// In this order, in which it would fail again.
+  /// In this order and in the one made from it, in which it would fail again.
   [[nodiscard]] bool has_failed(double factor) {
     const std::lock_guard lock(mutex_);
     return std::any_of(failed_.begin(), failed_.end(),

@@ -10,8 +10,8 @@ constexpr double kAimed = 0.85;  ///< efficiency at which the domain has CoarseO
 constexpr int kLongest = 16;     ///< times CoarseOptions::side: charts and domains up to that
 constexpr double kThinnest =
     1.5;  ///< cells; thinner charts are grown to it, that none slips through another
-/// Cells by which charts that hold each other are grown at a time, and at most.
-constexpr double kEnlarged = 0.5, kMostEnlarged = 3;
+constexpr double kEnlarged = 0.5;  ///< cells by which charts that hold each other are grown
+constexpr int kMostEnlarged = 6;   ///< times
 constexpr double kLeastChance = 1e-3;
 constexpr int kFirstStride = 3;  ///< steps at a time until the first domain that was not filled
 /// Of a domain of any shape: the longest, as in the paper; by what power of two its aspect changes
@@ -41,7 +41,8 @@ CoarseSearch::CoarseSearch(std::span<const ChartShape> shapes, Vec2 lengths, boo
       wraps_y_(wraps_y),
       options_(options),
       area_(total_area(shapes)),
-      random_(seed) {
+      random_(seed),
+      enlarged_(shapes.size()) {
   cells_per_unit_ = options_.side * std::sqrt(kAimed / area_);
   RasterScale scale;
   scale.cells_per_unit = {cells_per_unit_, cells_per_unit_};
@@ -80,9 +81,9 @@ void CoarseSearch::begin_with(const Layout& layout) {
   const double side = cells_per_unit_ / layout.scale;
   constexpr double kRoom = 1.01;  // as the grids differ
   const double largest = 2 * square(kLongest * options_.side);
+  forget();
   domain_ = of_area(std::min(square(kRoom * side) * texels_, largest), aspect_);
   from_ = {domain_, to_places(layout, *library_, domain_)};
-  stride_ = 1;
 }
 
 /// The domain of the shape nearest to it that has no more cells.
@@ -119,26 +120,37 @@ Layout CoarseSearch::best(Vec2 lengths) {
 }
 
 bool CoarseSearch::enlarge(std::span<const std::size_t> charts) {
+  Layout layout;
+  const Attempt& last = found() ? best_ : from_;
+  layout.spots = to_spots(last.places, *library_, last.domain);
+  const Domain domain = last.domain;
   bool any = false;
   for (const std::size_t chart : charts) {
-    if (library_->growth(chart) + kEnlarged > kMostEnlarged) continue;
+    if (enlarged_[chart] == kMostEnlarged) continue;
+    ++enlarged_[chart];
     library_->set_growth(chart, library_->growth(chart) + kEnlarged);
     any = true;
   }
   if (!any) return false;
-  if (found()) from_ = best_;
-  domain_ = from_.domain;
+  forget();
+  domain_ = domain;
+  from_ = {domain, to_places(layout, *library_, domain)};
+  return true;
+}
+
+void CoarseSearch::forget() {
   best_.places.clear();
   filled_.places.clear();
+  near_.clear();
   failures_ = 0;
   stride_ = 1;
-  near_.clear();
-  return true;
+  gave_up_ = false;
 }
 
 void CoarseSearch::adopt(const CoarseSearch& other) {
   for (std::size_t i = 0; i < shapes_.size(); ++i) {
-    if (library_->growth(i) == other.library_->growth(i)) continue;
+    if (enlarged_[i] == other.enlarged_[i]) continue;
+    enlarged_[i] = other.enlarged_[i];
     library_->set_growth(i, other.library_->growth(i));
   }
   best_ = filled_ = from_ = other.best_;

@@ -31,7 +31,7 @@ class CoarseSearch {
   CoarseSearch(std::span<const ChartShape> shapes, Vec2 lengths, bool wraps_x, bool wraps_y,
                const CoarseOptions& options, std::uint64_t seed);
 
-  /// Begins with this layout, in place of charts anywhere.
+  /// Begins with this layout, in place of charts anywhere or of what was found so far.
   void begin_with(const Layout& layout);
   /// Goes on until the effort is spent, or `until_stuck` and a domain has not been filled. Gives up
   /// where no domain is large enough, for charts very long beside their area.
@@ -46,7 +46,7 @@ class CoarseSearch {
   /// Share of the domain that its charts cover, an estimate.
   [[nodiscard]] double efficiency() const;
   /// Draws charts that held each other on a finer grid a little larger, and goes on from the best
-  /// layout, which is the best no more. False: they are drawn too large already.
+  /// layout, which is the best no more. False: all of them are as large as they may be.
   bool enlarge(std::span<const std::size_t> charts);
   /// Takes over a layout of the same charts and shape of domain, and what is drawn larger.
   void adopt(const CoarseSearch& other);
@@ -67,6 +67,7 @@ class CoarseSearch {
   [[nodiscard]] Domain smaller(const Domain& than, int steps);
   [[nodiscard]] bool fit_angles(const Domain& domain, std::vector<Place>& places);
   void begin_anew();
+  void forget();
   void keep_near(std::int64_t overlap, const std::vector<Place>& places);
   void retreat();
   [[nodiscard]] std::size_t any_chart();
@@ -91,6 +92,7 @@ class CoarseSearch {
   /// The layouts that did not fill a domain a step smaller, that of least overlap first.
   std::vector<Near> near_;
   std::vector<double> chances_;  ///< of charts to be disturbed, each with those before it
+  std::vector<int> enlarged_;    ///< how often, per chart
   Attempt best_;                 ///< the smallest domain ever; without places: none
 };
 

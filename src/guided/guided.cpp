@@ -80,15 +80,12 @@ struct Task {
 
 /// Of many charts some may fit nowhere on a coarse grid, and separation then comes to nothing, or
 /// to little before long. If so, best fit is asked for something to go on from.
-void fit_if_stuck(Task& task, std::span<const ChartShape> shapes, Lines& lines) {
+void separate_or_fit(Task& task, std::span<const ChartShape> shapes, Lines& lines) {
   constexpr double kSuccess = 1.02, kShare = 0.4;  // of the time, for what may come to nothing
-  if (task.frames.size() == 1) {
-    const double before = task.record.efficiency();
-    lines.run_until_stuck(kShare);
-    if (task.record.efficiency() > kSuccess * before) return;
-  }
-  const std::span<const Frame> frames(task.frames);
-  search_best_fit(shapes, task.options, frames.first(1), task.record, false);
+  const double before = task.record.efficiency();
+  lines.run_until_stuck(kShare);
+  if (task.record.efficiency() > kSuccess * before) return;
+  search_best_fit(shapes, task.options, task.frames, task.record, false);
   if (task.record.best()) lines.begin_with(*task.record.best(), false);
   lines.run_until_stuck();
 }
@@ -105,14 +102,19 @@ void separate_few(Task& task) {
   const bool is_short = task.record.timed() && task.options.time < enough;
   if (is_short) search_best_fit(shapes, task.options, task.frames, task.record, false);
   search_assembly(shapes, task.options, task.frames, task.record);
+  const bool is_hard = !is_short && shapes.size() > kFewCharts;
+  if (is_hard && task.frames.size() > 1) {
+    const std::span<const Frame> frames(task.frames);
+    search_best_fit(shapes, task.options, frames.first(1), task.record, false);
+  }
   Lines lines(shapes, task.options, task.frames, task.record);
   if (task.record.best()) lines.begin_with(*task.record.best(), false);
-  if (!is_short && shapes.size() > kFewCharts) {
-    fit_if_stuck(task, shapes, lines);
-    lines.go_on();
+  if (is_hard && task.frames.size() == 1) {
+    separate_or_fit(task, shapes, lines);
   } else {
-    lines.run();
+    lines.run_until_stuck();
   }
+  lines.go_on();
 }
 
 void fit_many(Task& task) {

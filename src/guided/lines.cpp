@@ -1,7 +1,6 @@
 #include "guided/lines.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <functional>
 #include <numeric>
@@ -56,6 +55,7 @@ void Lines::begin_with(const Packing& packing, bool all) {
       continue;
     }
     line->coarse.begin_with(to_layout(packing, shapes_, *line->frame));
+    line->refined = 0;
     if (!all) return;
   }
 }
@@ -78,35 +78,44 @@ Frame Lines::frame_of(const Line& line) const {
   return frame ? *frame : *line.frame;
 }
 
-bool Lines::improve(Line& line, double least_efficiency, Effort& effort) {
-  if (!line.coarse.found() || line.coarse.efficiency() <= line.refined) return false;
+void Lines::improve(Line& line, double least_efficiency, Effort& effort) {
+  if (!line.coarse.found() || line.coarse.efficiency() <= line.refined) return;
   const Frame frame = frame_of(line);
   const Layout layout = line.coarse.best(frame.lengths());
   RefineOptions how;
   how.least_scale = std::sqrt(least_efficiency * frame.texels() / total_area(shapes_));
+  how.gives_up = true;
   Refined fine = refine(shapes_, frame, options_, layout, how, effort, line.random);
+  if (!fine.held.empty()) {
+    if (line.coarse.enlarge(fine.held)) {
+      line.enlarged = true;
+      line.refined = 0;
+      return;
+    }
+    how.gives_up = false;
+    fine = refine(shapes_, frame, options_, layout, how, effort, line.random);
+  }
   if (fine.packing || !effort.spent()) line.refined = line.coarse.efficiency();
   if (fine.packing) {
     record_.offer(std::move(*fine.packing), 1 + line.offers++ * begun_ + line.number);
   }
-  if (fine.held.empty() || !line.coarse.enlarge(fine.held)) return false;
-  line.refined = 0;
-  return true;
 }
 
 /// Lets every line search in the given part of the whole time, an equal part each; or, of the moves
 /// that are left, as many as that is of the part that is left.
-void Lines::spend(double from, double to, bool until_stuck) {
+void Lines::spend(double from, double to, bool until_stuck, bool enlarged_alone) {
   const double turns =
       std::ceil(static_cast<double>(lines_.size()) / std::max(1, thread_count(options_.threads)));
   const double share = (to - from) / (end() - from) / static_cast<double>(lines_.size());
   const auto moves = static_cast<std::int64_t>(share * static_cast<double>(moves_left_)) + 1;
   std::vector<std::int64_t> made(lines_.size());
   parallel_for(lines_.size(), thread_count(options_.threads), [&](std::size_t i) {
+    if (enlarged_alone && !lines_[i]->enlarged) return;
     const double turn = std::floor(static_cast<double>(i) / thread_count(options_.threads));
     Effort effort = record_.effort(from + (to - from) * (turn + 1) / turns);
     if (options_.moves > 0) effort.moves(moves);
     lines_[i]->coarse.run(effort, until_stuck);
+    if (lines_[i]->coarse.found() || !effort.spent()) lines_[i]->enlarged = false;
     made[i] = effort.moves_made();
   });
   moves_left_ = std::accumulate(made.begin(), made.end(), moves_left_, std::minus<>());
@@ -125,6 +134,7 @@ void Lines::share_best() {
       [](const auto& a, const auto& b) { return a->coarse.efficiency() < b->coarse.efficiency(); });
   for (const auto& line : lines_) {
     const bool alike = any_shape() || line->frame == best->frame;
+    if (line->enlarged) continue;  // else it would be drawn as the others are
     if (alike && line->coarse.efficiency() < best->coarse.efficiency()) {
       line->coarse.adopt(best->coarse);
       line->refined = best->refined;
@@ -141,12 +151,11 @@ bool Lines::improve_all(double share) {
   // What comes a little short of the best may grow a little yet.
   constexpr double kGrowth = 0.95;
   const double least = kGrowth * record_.efficiency();
-  std::atomic<bool> enlarged{false};
   each_line([&](Line& line) {
     Effort effort = record_.effort(share);
-    if (improve(line, least, effort)) enlarged = true;
+    improve(line, least, effort);
   });
-  return enlarged;
+  return std::any_of(lines_.begin(), lines_.end(), [](const auto& line) { return line->enlarged; });
 }
 
 void Lines::run() {
@@ -167,12 +176,14 @@ void Lines::run_until_stuck(double share) {
       keep_best(once() ? wanted : std::max(wanted, lines_.size() / 2));
       if (once()) break;
     }
-    improve_all(1);
-    return;
-  }
-  do {
+  } else {
     spend(0, share * end(), true);
-  } while (improve_all(std::min(1.0, share + kRefineShare)) && !record_.enough(share));
+  }
+  const bool again = once() || (record_.timed() && lines_.size() == begun_);
+  while (improve_all(std::min(1.0, share + kRefineShare)) && again &&
+         !record_.effort(share).spent()) {
+    spend(0, share * end(), true, true);
+  }
 }
 
 void Lines::go_on() {

@@ -23,8 +23,8 @@ class Lines {
   void begin_with(const Packing& packing, bool all);
   /// Searches until the record says that it is enough: the two below.
   void run();
-  /// Until each line has failed once; of one frame, or about this share of the time has passed. Of
-  /// several frames: chooses the best ones.
+  /// Until each line has failed once, and again where charts held each other; of one frame, or
+  /// about this share of the time has passed. Of several frames: chooses the best ones.
   void run_until_stuck(double share = 1);
   void go_on();
 
@@ -36,14 +36,15 @@ class Lines {
     Random random;
     std::size_t offers = 0;  ///< refined layouts so far
     double refined = 0;      ///< efficiency of the coarse layout last refined
+    bool enlarged = false;   ///< since it last found a layout, some of its charts were
   };
   template <typename Job>
   void each_line(Job job);
-  void spend(double from, double to, bool until_stuck);
+  void spend(double from, double to, bool until_stuck, bool enlarged_alone = false);
   [[nodiscard]] bool any_shape() const { return options_.aspect == Aspect::search; }
   [[nodiscard]] Frame frame_of(const Line& line) const;
-  /// True: instead, some of its charts are drawn larger from now on.
-  bool improve(Line& line, double least_efficiency, Effort& effort);
+  void improve(Line& line, double least_efficiency, Effort& effort);
+  /// True: of some lines charts are drawn larger from now on, as they held each other.
   bool improve_all(double share);
   /// Neither a time nor moves: it ends when it is stuck.
   [[nodiscard]] bool once() const { return !record_.timed() && options_.moves == 0; }

@@ -42,7 +42,7 @@ struct HowFar {
 /// what it has room for. So every chart is on the first page that had room for it, but for those
 /// that were not tried where others of their size had failed. Nothing if a chart is left after
 /// `most` pages (0: any number), if one does not fit on an empty page, or if `stop` says so.
-/// `how_far`: filled whatever comes of it, if not null.
+/// `how_far`, if not null: what was placed is added to it, whatever comes of it.
 std::optional<PageFilling> fill_pages(const PageTask& task, double scale,
                                       std::span<const std::uint32_t> order, int most,
                                       const std::function<bool()>& stop, HowFar* how_far = nullptr);

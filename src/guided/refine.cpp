@@ -9,7 +9,7 @@ namespace wrapatlas {
 namespace {
 
 constexpr double kLeastScale = 0.5;  ///< of the first scale: below it, the layout is given up
-/// Scales in a row that did not help: the overlap did not fall to this share of the least before.
+/// Scales in a row at which the overlap has not fallen to this share of what it was before them.
 constexpr int kMostInVain = 5;
 constexpr double kHelped = 0.9;
 constexpr int kMostTurned = kAngleSteps / 128;  ///< about what a layout's angles are rounded to
@@ -68,12 +68,14 @@ Refined refine(std::span<const ChartShape> shapes, const Frame& frame, const Pac
                           covered_cells);
     } else if (!best) {
       // The next attempt begins where this one came closest.
-      if (fits && !how.exact) {
-        layout.spots = to_spots(places, library, domain);
+      if (effort.spent()) break;
+      if (fits && !how.exact) layout.spots = to_spots(places, library, domain);
+      if (fits && how.gives_up) {
         const auto overlap = static_cast<double>(separator.least());
-        in_vain = overlap < kHelped * least ? 0 : in_vain + 1;
-        least = std::min(least, overlap);
-        if (in_vain == kMostInVain) {
+        if (overlap < kHelped * least) {
+          least = overlap;
+          in_vain = 0;
+        } else if (++in_vain == kMostInVain) {
           refined.held = separator.overlapping();
           break;
         }

@@ -20,11 +20,12 @@ struct RefineOptions {
   int window = 6;          ///< cells
   double least_scale = 0;  ///< texels per input unit; below it no first success is sought
   bool exact = false;  ///< the layout is right but for its scale: each attempt begins with it anew
+  bool gives_up = false;  ///< where charts hold each other, and no scale is likely to help
 };
 
 struct Refined {
   std::optional<Packing> packing;  ///< nothing: the effort was spent before, or there is none
-  /// Charts that hold each other, as a hook in a ring, so that no scale helps, if that is why.
+  /// If it gave up: the charts that still overlapped. They may hold each other as a hook a ring.
   std::vector<std::size_t> held;
 };
 

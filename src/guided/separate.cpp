@@ -221,6 +221,7 @@ bool Separator::run(std::vector<Place>& places, const SeparateOptions& options, 
     }
     raise_weights();
   }
+  if (least_ > 0) take(places);
   return least_ == 0;
 }
 

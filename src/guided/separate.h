@@ -38,7 +38,7 @@ class Separator {
   bool run(std::vector<Place>& places, const SeparateOptions& options, Effort& effort);
   /// Cells of the least overlap met at the end of a round of the last run.
   [[nodiscard]] std::int64_t least() const { return least_; }
-  /// The charts that overlapped when the last run ended.
+  /// The charts that overlap in what the last run ended with, if it was not cut short.
   [[nodiscard]] std::vector<std::size_t> overlapping() const;
 
  private:

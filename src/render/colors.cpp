@@ -7,6 +7,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "wrapatlas/texture.h"
+
 namespace wrapatlas {
 namespace {
 
@@ -21,8 +23,7 @@ std::array<double, 3> linear_rgb(double lightness, double a, double b) {
 }
 
 std::uint8_t encode(double linear) {
-  const double x = std::clamp(linear, 0.0, 1.0);
-  const double value = x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1 / 2.4) - 0.055;
+  const float value = linear_to_srgb(static_cast<float>(std::clamp(linear, 0.0, 1.0)));
   return static_cast<std::uint8_t>(std::lround(255 * value));
 }
 

@@ -197,9 +197,11 @@ class SameBytes(support.CommandTest):
     def test_charts_that_hold_each_other_on_a_coarse_grid(self):
         """Hooks in rings and combs in frames, where cells are as large as they are thick."""
         self.sample("machine.obj")
-        report = self.report("pack", "machine.obj", "-o", "out.obj", "--quiet", "--padding", 2,
-                             "--resolution", 1024, "--time", 0)
+        pack = ("pack", "machine.obj", "--quiet", "--padding", 2, "--resolution", 1024, "--time", 0)
+        report = self.report(*pack, "-o", "out.obj", "--threads", 1)
         self.assertGreater(report["efficiency"], 0.53)
+        self.succeed(*pack, "-o", "again.obj", "--threads", 2)
+        self.assertEqual(self.path("out.obj").read_bytes(), self.path("again.obj").read_bytes())
         self.assertTrue(self.check("out.obj", "machine.obj", "--wrap", "uv", resolution=1024)["ok"])
 
     def test_runs_and_threads(self):

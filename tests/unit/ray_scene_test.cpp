@@ -79,9 +79,9 @@ TEST(RayScene, FindsTheFirstHit) {
     const Vec3 there = point_at(triangle_of(mesh, out->triangle), out->weights);
     EXPECT_LT(length(there - out->distance * direction), 1e-5);
     EXPECT_FALSE(scene->first_hit({0, 0, 0}, direction, 0.9));
-    EXPECT_TRUE(scene->is_blocked({0, 0, 0}, direction, 0, 10));
-    EXPECT_FALSE(scene->is_blocked({0, 0, 0}, direction, 0, 0.9));
-    EXPECT_FALSE(scene->is_blocked(3.0 * direction, direction, 0, 10));
+    EXPECT_TRUE(scene->is_blocked({0, 0, 0}, direction, 10));
+    EXPECT_FALSE(scene->is_blocked({0, 0, 0}, direction, 0.9));
+    EXPECT_FALSE(scene->is_blocked(3.0 * direction, direction, 10));
   }
 }
 

@@ -4,19 +4,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <numbers>
+#include <optional>
+#include <span>
 
-#include "bake/high_surface.h"
-#include "bake/surface_walk.h"
 #include "commands.h"
 #include "mesh/polygon_plane.h"
 #include "mesh/triangulate.h"
-#include "mesh/union_find.h"
 #include "report.h"
+#include "seam_pixels.h"
 #include "wrapatlas/bake.h"
 #include "wrapatlas/model.h"
-#include "wrapatlas/render.h"
 
 namespace wrapatlas::bench {
 namespace {
@@ -28,170 +25,12 @@ constexpr const char* kPlaceNames[] = {"inside charts", "of these, 2 to 6 texels
 constexpr int kLevels = 5;
 constexpr std::size_t kStride = 16;  ///< pixels of which one is compared with a map without seams
 
-/// What one pixel shows.
-struct Pixel {
-  Vec2 uv;
-  std::uint32_t face = kNone;       ///< of the low mesh, and
-  std::array<double, 3> weights{};  ///< the place on it
-  Vec3 truth;                       ///< the high mesh's normal there
-  double to_border = 0;             ///< of its chart, in texels of level 0
-  double to_atlas_border = 0;
-};
-
-/// Per face its chart, and per chart the edges that bound it, in texels.
-class ChartBorders {
- public:
-  ChartBorders(const Mesh& mesh, int width, int height) : chart_(mesh.face_count()) {
-    std::map<std::array<double, 4>, std::vector<std::uint32_t>> faces;
-    const auto corner = [&](std::uint32_t c) {
-      const Vec2 uv = mesh.texcoords[mesh.corner_texcoord[c]];
-      return Vec2{width * uv.x, height * uv.y};
-    };
-    const auto key = [](Vec2 a, Vec2 b) {
-      if (std::pair(b.x, b.y) < std::pair(a.x, a.y)) std::swap(a, b);
-      return std::array<double, 4>{a.x, a.y, b.x, b.y};
-    };
-    for (std::uint32_t c = 0; c < mesh.corner_count(); ++c) {
-      faces[key(corner(c), corner(c % 3 == 2 ? c - 2 : c + 1))].push_back(c / 3);
-    }
-    UnionFind sets(mesh.face_count());
-    for (const auto& [edge, users] : faces) {
-      for (const std::uint32_t face : users) sets.unite(users.front(), face);
-    }
-    for (std::uint32_t face = 0; face < chart_.size(); ++face) chart_[face] = sets.find(face);
-    for (const auto& [edge, users] : faces) {
-      if (users.size() > 1) continue;
-      edges_[chart_[users.front()]].push_back({{edge[0], edge[1]}, {edge[2], edge[3]}});
-    }
-  }
-
-  /// `place` in texels.
-  [[nodiscard]] double distance(std::uint32_t face, Vec2 place) const {
-    double least2 = 1e300;
-    const auto found = edges_.find(chart_[face]);
-    if (found == edges_.end()) return std::sqrt(least2);
-    for (const auto& [a, b] : found->second) {
-      const Vec2 ab = b - a, ap = place - a;
-      const double size2 = dot(ab, ab);
-      const double share = size2 > 0 ? std::clamp(dot(ap, ab) / size2, 0.0, 1.0) : 0;
-      const Vec2 off = ap - share * ab;
-      least2 = std::min(least2, dot(off, off));
-    }
-    return std::sqrt(least2);
-  }
-
- private:
-  std::vector<std::uint32_t> chart_;
-  std::map<std::uint32_t, std::vector<std::pair<Vec2, Vec2>>> edges_;
-};
-
-struct Scene {
+/// A model with an atlas.
+struct Atlas {
   Mesh low;  ///< triangles
   bool v_points_down = false;
-  std::vector<Pixel> pixels;
+  int side = 0;  ///< texels
 };
-
-double degrees_between(const Vec3& a, const Vec3& b) {
-  return std::atan2(length(cross(a, b)), dot(a, b)) * 180 / std::numbers::pi;
-}
-
-/// A place of the low mesh, and what the high one shows there.
-class Projection {
- public:
-  Projection(const Mesh& low, const HighSurface& high, double distance)
-      : low_(low), high_(high), distance_(distance), normals_(smooth_normals(low)) {}
-
-  [[nodiscard]] HighPoint find(std::uint32_t face, const std::array<double, 3>& weights) const {
-    Vec3 normal;
-    for (std::size_t k = 0; k < 3; ++k) {
-      normal = normal + weights[k] * normals_[3 * std::size_t{face} + k];
-    }
-    return high_.find(point_at(triangle_of(low_, face), weights), unit(normal), distance_);
-  }
-  [[nodiscard]] Vec3 normal(const HighPoint& point) const { return high_.normal(point); }
-
- private:
-  const Mesh& low_;
-  const HighSurface& high_;
-  double distance_;
-  CornerVectors normals_;
-};
-
-std::array<Vec2, 3> texels_of(const Mesh& mesh, std::uint32_t face, int side) {
-  std::array<Vec2, 3> corner;
-  for (std::size_t k = 0; k < 3; ++k) {
-    corner[k] = double(side) * mesh.texcoords[mesh.corner_texcoord[3 * std::size_t{face} + k]];
-  }
-  return corner;
-}
-
-/// What filtering alone leaves of the truth: the mean over the texels that are read for a pixel,
-/// each of them where the surface has it, whatever chart that is on.
-class Seamless {
- public:
-  Seamless(const Mesh& low, const Projection& projection, const SurfaceWalk& walk, int side)
-      : low_(low), projection_(projection), walk_(walk), side_(side) {}
-
-  [[nodiscard]] Vec3 normal(const Pixel& pixel, int level) const {
-    constexpr int kAcross = 4;  // samples of a texel
-    const double texel = std::exp2(level);
-    const Vec2 place = double(side_) * pixel.uv;
-    const Vec2 first{std::floor(place.x / texel - 0.5), std::floor(place.y / texel - 0.5)};
-    const Vec2 share = (1 / texel) * place - first - Vec2{0.5, 0.5};
-    Vec3 sum;
-    for (int i = 0; i < 4 * kAcross * kAcross; ++i) {
-      const int column = i % (2 * kAcross), row = i / (2 * kAcross);
-      const double weight =
-          (column < kAcross ? 1 - share.x : share.x) * (row < kAcross ? 1 - share.y : share.y);
-      const Vec2 at = first + (1.0 / kAcross) * Vec2{column + 0.5, row + 0.5};
-      sum = sum + weight * seen_from(pixel, texel * at - place);
-    }
-    return unit(sum);
-  }
-
- private:
-  /// `by` in texels.
-  [[nodiscard]] Vec3 seen_from(const Pixel& pixel, Vec2 by) const {
-    const std::array<Vec2, 3> corner = texels_of(low_, pixel.face, side_);
-    const Triangle t = triangle_of(low_, pixel.face);
-    const WalkEnd end = walk_.go(pixel.face, pixel.weights, along_surface(t, corner, by));
-    return projection_.normal(projection_.find(end.triangle, end.weights));
-  }
-
-  const Mesh& low_;
-  const Projection& projection_;
-  const SurfaceWalk& walk_;
-  int side_;
-};
-
-std::vector<Pixel> visible_pixels(const Scene& scene, const Projection& projection,
-                                  const SeamBenchOptions& options) {
-  RenderOptions view;
-  view.views = options.views;
-  view.size = options.size;
-  const Rendering rendering = render(scene.low, view);
-  const int side = options.resolution;
-  const ChartBorders borders(scene.low, side, side);
-  std::vector<Pixel> pixels;
-  for (std::size_t i = 0; i < rendering.face.size(); ++i) {
-    const std::uint32_t face = rendering.face[i];
-    if (face == kNone || rendering.covered[i] == 0) continue;
-    const std::array<Vec2, 3> corner = texels_of(scene.low, face, side);
-    const double area = signed_area2(corner[0], corner[1], corner[2]);
-    if (area == 0) continue;
-    const Vec2 texel = double(side) * rendering.uv[i];
-    const double b = signed_area2(corner[2], corner[0], texel) / area;
-    const double c = signed_area2(corner[0], corner[1], texel) / area;
-    const std::array<double, 3> weights{1 - b - c, b, c};
-    const HighPoint point = projection.find(face, weights);
-    if (!point.by_ray) continue;
-    const auto to_whole = [&](double t) { return std::abs(t - side * std::round(t / side)); };
-    pixels.push_back({rendering.uv[i], face, weights, projection.normal(point),
-                      borders.distance(face, texel),
-                      std::min(to_whole(texel.x), to_whole(texel.y))});
-  }
-  return pixels;
-}
 
 /// Degrees, per place.
 using Errors = std::array<std::vector<double>, kPlaces>;
@@ -208,8 +47,8 @@ void add_error(const Pixel& pixel, int level, double degrees, Errors& errors) {
   if (is_beside) errors[beside_border].push_back(degrees);
 }
 
-Vec3 read(const Scene& scene, const Pixel& pixel, const MipMaps& maps, int level, Wrap wrap) {
-  Vec2 uv{pixel.uv.x, scene.v_points_down ? pixel.uv.y : 1 - pixel.uv.y};
+Vec3 read(const Atlas& atlas, Vec2 uv, const MipMaps& maps, int level, Wrap wrap = Wrap::uv) {
+  if (!atlas.v_points_down) uv.y = 1 - uv.y;
   if (wrap == Wrap::none) {  // as a texture that does not repeat is looked up
     uv = {std::clamp(uv.x, 0.0, 1.0), std::clamp(uv.y, 0.0, 1.0)};
   }
@@ -227,18 +66,23 @@ std::string summary(std::vector<double>& values) {
   return fmt::format("{:.2f} | {:.1f} | {}", sum / double(values.size()), *high, values.size());
 }
 
-/// `shown(pixel, level)` is a normal.
-template <typename Shown>
-void print_table(const Scene& scene, const char* title, std::size_t stride, Shown&& shown) {
+void print_head(const char* title) {
   fmt::print(
       "\n{}\n\n| level | where | mean error, degrees | 99 % below | pixels |\n"
       "|---:|---|---:|---:|---:|\n",
       title);
+}
+
+/// `shown(pixel, level)` is a normal.
+template <typename Shown>
+void print_table(std::span<const Pixel> pixels, const char* title, std::size_t stride,
+                 Shown&& shown) {
+  print_head(title);
   for (int level = 0; level < kLevels; ++level) {
     Errors errors;
-    for (std::size_t i = 0; i < scene.pixels.size(); i += stride) {
-      const Pixel& pixel = scene.pixels[i];
-      add_error(pixel, level, degrees_between(shown(pixel, level), pixel.truth), errors);
+    for (std::size_t i = 0; i < pixels.size(); i += stride) {
+      add_error(pixels[i], level, degrees_between(shown(pixels[i], level), pixels[i].truth),
+                errors);
     }
     for (std::size_t place = 0; place < kPlaces; ++place) {
       fmt::print("| {} | {} | {} |\n", level, kPlaceNames[place], summary(errors[place]));
@@ -246,61 +90,145 @@ void print_table(const Scene& scene, const char* title, std::size_t stride, Show
   }
 }
 
-void print_map(const Scene& scene, const Texture& map, const char* title, Wrap wrap,
-               std::size_t stride = 1) {
+void print_map(const Atlas& atlas, std::span<const Pixel> pixels, const Texture& map,
+               const char* title, Wrap wrap, std::size_t stride = 1) {
   const MipMaps maps = make_mip_maps(map, MipFilter::normals);
-  print_table(scene, title, stride,
-              [&](const Pixel& pixel, int level) { return read(scene, pixel, maps, level, wrap); });
+  print_table(pixels, title, stride, [&](const Pixel& pixel, int level) {
+    return read(atlas, pixel.uv, maps, level, wrap);
+  });
+}
+
+Result<BakeResult> bake_normals(const Atlas& atlas, const BakeSource& source,
+                                std::optional<int> bleed = {}) {
+  BakeOptions options;
+  options.width = options.height = atlas.side;
+  options.v_points_down = atlas.v_points_down;
+  if (bleed) options.bleed = *bleed;
+  const BakedMap maps[] = {BakedMap::object_normals};
+  return bake(atlas.low, source, maps, options);
+}
+
+/// Nothing beyond the charts.
+Texture undilated(const BakeResult& baked) {
+  Texture bare = baked.maps.front();
+  for (std::size_t i = 0; i < baked.inside.size(); ++i) {
+    if (baked.inside[i] != 0) continue;
+    std::fill_n(bare.values.data() + 3 * i, 3, 0.5F);
+  }
+  return bare;
+}
+
+double area_in_uv(const Mesh& mesh) {
+  double area = 0;
+  for (std::uint32_t face = 0; face < mesh.face_count(); ++face) {
+    const auto corner = texels_of(mesh, face, 1);
+    area += std::abs(signed_area2(corner[0], corner[1], corner[2])) / 2;
+  }
+  return area;
+}
+
+bool are_same_surface(const Mesh& a, const Mesh& b) {
+  if (a.corner_count() != b.corner_count()) return false;
+  for (std::uint32_t c = 0; c < a.corner_count(); ++c) {
+    if (!(a.positions[a.corner_position[c]] == b.positions[b.corner_position[c]])) return false;
+  }
+  return true;
+}
+
+/// The same places of a surface that was cut in two ways: where one atlas has the border of a chart
+/// and the other the inside of one. `pixels` are of `a`.
+void print_pair(const Atlas& a, const Atlas& b, std::span<const Pixel> pixels,
+                const BakeResult& baked_a, const BakeResult& baked_b) {
+  constexpr double kInside = 3;  // texels from the border: more than what is read for a pixel
+  const MipMaps maps_a = make_mip_maps(baked_a.maps.front(), MipFilter::normals);
+  const MipMaps maps_b = make_mip_maps(baked_b.maps.front(), MipFilter::normals);
+  const MipMaps bare_a = make_mip_maps(undilated(baked_a), MipFilter::normals);
+  const MipMaps bare_b = make_mip_maps(undilated(baked_b), MipFilter::normals);
+  const ChartBorders borders(b.low, b.side);
+  std::vector<double> to_border;
+  for (const Pixel& pixel : pixels) {
+    to_border.push_back(
+        borders.distance(pixel.face, texel_at(b.low, pixel.face, pixel.weights, b.side)));
+  }
+  print_head("The same places at a border in one atlas, inside a chart of the other");
+  for (int level = 0; level < kLevels; ++level) {
+    const double texel = std::exp2(level);
+    std::vector<double> at_border, inside_charts, bare;
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+      const Pixel& pixel = pixels[i];
+      const Vec2 uv_b = texel_at(b.low, pixel.face, pixel.weights, 1);
+      const auto error_a = [&](const MipMaps& maps) {
+        return degrees_between(read(a, pixel.uv, maps, level), pixel.truth);
+      };
+      const auto error_b = [&](const MipMaps& maps) {
+        return degrees_between(read(b, uv_b, maps, level), pixel.truth);
+      };
+      const bool of_a = pixel.to_border < texel && to_border[i] >= kInside * texel;
+      const bool of_b = to_border[i] < texel && pixel.to_border >= kInside * texel;
+      if (!of_a && !of_b) continue;
+      at_border.push_back(of_a ? error_a(maps_a) : error_b(maps_b));
+      inside_charts.push_back(of_a ? error_b(maps_b) : error_a(maps_a));
+      bare.push_back(of_a ? error_a(bare_a) : error_b(bare_b));
+    }
+    fmt::print("| {} | at the border of a chart | {} |\n", level, summary(at_border));
+    fmt::print("| {} | inside a chart | {} |\n", level, summary(inside_charts));
+    fmt::print("| {} | at the border, nothing around charts | {} |\n", level, summary(bare));
+  }
+}
+
+/// Says what is wrong, and 1.
+int fail(const Error& error) {
+  fmt::print(stderr, "{}\n", error.message());
+  return 1;
 }
 
 }  // namespace
 
 int bench_seams(const SeamBenchOptions& options) {
-  const auto low = load_model(options.low), high = load_model(options.high);
-  for (const auto* model : {&low, &high}) {
-    if (*model) continue;
-    fmt::print(stderr, "{}\n", model->error().message());
-    return 1;
+  const auto low = load_model(options.low), other = load_model(options.other),
+             high = load_model(options.high);
+  for (const auto* model : {&low, &other, &high}) {
+    if (!*model) return fail(model->error());
   }
-  Scene scene{triangulated(low->mesh).mesh, low->v_points_down, {}};
+  const Atlas atlas{triangulated(low->mesh).mesh, low->v_points_down, options.resolution};
   const Triangulated high_triangles = triangulated(high->mesh);
   BakeSource source;
   source.mesh = &high->mesh;
   source.v_points_down = high->v_points_down;
-  BakeOptions bake_options;
-  bake_options.width = bake_options.height = options.resolution;
-  bake_options.v_points_down = low->v_points_down;
-  const BakedMap maps[] = {BakedMap::object_normals};
-  const auto baked = bake(scene.low, source, maps, bake_options);
-  if (!baked) {
-    fmt::print(stderr, "{}\n", baked.error().message());
-    return 1;
-  }
+  const auto baked = bake_normals(atlas, source), dilated = bake_normals(atlas, source, 0);
+  if (!baked) return fail(baked.error());
+  if (!dilated) return fail(dilated.error());
   const auto surface = HighSurface::build(high_triangles, source, -1, 1);
-  if (!surface) return 1;
-  const Projection projection(scene.low, *surface, baked->distance);
-  scene.pixels = visible_pixels(scene, projection, options);
+  if (!surface) return fail(surface.error());
+  const auto walk = SurfaceWalk::build(atlas.low);
+  if (!walk) return fail(walk.error());
+  const Projection projection(atlas.low, *surface, baked->distance);
+  const std::vector<Pixel> pixels = visible_pixels(atlas.low, projection, options);
   fmt::print("{} on {}: {} x {} texels, {} views of {} pixels\n", options.high, options.low,
              options.resolution, options.resolution, options.views, options.size);
   const Texture& map = baked->maps.front();
-  print_map(scene, map, "As baked, repeating", Wrap::uv);
-  print_map(scene, map, "Control: clamped instead of repeating", Wrap::none);
-  Texture bare = map;
-  for (std::size_t i = 0; i < baked->inside.size(); ++i) {
-    if (baked->inside[i] != 0) continue;
-    std::fill_n(bare.values.data() + 3 * i, 3, 0.5F);
-  }
-  print_map(scene, bare, "Control: nothing beyond the charts", Wrap::uv);
-  bake_options.bleed = 0;
-  const auto dilated = bake(scene.low, source, maps, bake_options);
-  if (!dilated) return 1;
-  print_map(scene, dilated->maps.front(), "Control: dilated alone, without --bleed", Wrap::uv);
-  const auto walk = SurfaceWalk::build(scene.low);
-  if (!walk) return 1;
-  const Seamless seamless(scene.low, projection, *walk, options.resolution);
-  print_map(scene, map, "As baked, the pixels of the next table", Wrap::uv, kStride);
-  print_table(scene, "Without any seams: the filter alone, on the surface itself", kStride,
+  print_map(atlas, pixels, map, "As baked, repeating", Wrap::uv);
+  print_map(atlas, pixels, map, "Control: clamped instead of repeating", Wrap::none);
+  print_map(atlas, pixels, undilated(*baked), "Control: nothing beyond the charts", Wrap::uv);
+  print_map(atlas, pixels, dilated->maps.front(), "Control: dilated alone, without --bleed",
+            Wrap::uv);
+  const Seamless seamless(atlas.low, projection, *walk, options.resolution);
+  print_map(atlas, pixels, map, "As baked, the pixels of the next table", Wrap::uv, kStride);
+  print_table(pixels, "Without any seams: the filter alone, on the surface itself", kStride,
               [&](const Pixel& pixel, int level) { return seamless.normal(pixel, level); });
+
+  Atlas second{triangulated(other->mesh).mesh, other->v_points_down, 0};
+  if (!are_same_surface(atlas.low, second.low)) {
+    return fail({ErrorKind::input, options.other, "is not the surface of " + options.low, ""});
+  }
+  // Texels of the same size, nearly: sides are halved for each level.
+  const double side =
+      options.resolution * std::sqrt(area_in_uv(atlas.low) / area_in_uv(second.low));
+  const int halves = 1 << (kLevels - 1);
+  second.side = halves * static_cast<int>(std::lround(side / halves));
+  const auto second_baked = bake_normals(second, source);
+  if (!second_baked) return fail(second_baked.error());
+  print_pair(atlas, second, pixels, *baked, *second_baked);
   return 0;
 }
 

@@ -28,7 +28,7 @@ struct FlattenBenchOptions {
 };
 
 struct SeamBenchOptions {
-  std::string low, high;
+  std::string low, other, high;
   int resolution = 256;
   int views = 12, size = 512;
 };

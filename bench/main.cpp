@@ -67,6 +67,7 @@ int main(int argc, char** argv) {
   CLI::App& seams_app = *app.add_subcommand(
       "seams", "Errors of a baked normal map along borders, beside those inside charts");
   seams_app.add_option("low", seams.low, "Model with a packed atlas")->required();
+  seams_app.add_option("other", seams.other, "The same, cut into other charts")->required();
   seams_app.add_option("high", seams.high, "Model to be baked")->required();
   seams_app.add_option("--resolution", seams.resolution, "Texels of the atlas, a side")
       ->capture_default_str();

@@ -3,7 +3,9 @@
 padding, its own normals baked, and the error of what is read from the map measured in pictures from
 around it (`wrapatlas_bench seams`): inside charts, along their borders, along the border of the
 atlas, at mip levels 0 to 4; the same where the texture is clamped, and where nothing is dilated;
-and without any seams, which is what filtering alone leaves of the surface's own normals. Markdown tables of means in degrees over all pixels of all meshes, and per mesh for level
+without any seams, which is what filtering alone leaves of the surface's own normals; and beside a
+second atlas, of charts that are cut to be shorter, wherever one has a border and the other the inside
+of a chart. Markdown tables of means in degrees over all pixels of all meshes, and per mesh for level
 0. Needs nothing but Python and the release build. Progress goes to stderr."""
 
 import argparse
@@ -20,6 +22,14 @@ PLACES = {
     "up to 1 texel from a chart's border": "at the border of a chart",
     "up to 1 texel from the border of the atlas": "at the border of the atlas",
 }
+
+
+PAIRED = {
+    "at the border of a chart": "at the border of a chart",
+    "inside a chart": "the same places inside a chart of the other atlas",
+    "at the border, nothing around charts": "at the border, nothing around charts",
+}
+SHORTER = ["--max-extent", "0.8"]  # of the second atlas; 1.5 is the default
 
 
 def arguments():
@@ -46,13 +56,21 @@ def tables_of(text):
     return tables
 
 
-def measured(options, source, folder):
-    flat, packed = folder / "flat.obj", folder / "packed.obj"
+def packed(options, source, folder, more):
+    """The atlas of the mesh, its file in a new folder; `more` to unwrap."""
+    folder.mkdir()
+    flat = folder / "flat.obj"
     measure.run([options.wrapatlas, "unwrap", str(source), "-o", str(flat), "--stop-after", "flat",
-                 "--quiet"], f"{source}: unwrap")
+                 "--quiet", *more], f"{source}: unwrap")
     measure.pack(options, flat, folder, "guided", "uv", str(source), ["--time", options.time])
+    return str(folder / "packed.obj")
+
+
+def measured(options, source, folder):
+    atlas = packed(options, source, folder / "atlas", [])
+    other = packed(options, source, folder / "other", SHORTER)
     return tables_of(measure.run(
-        [str(options.bench), "seams", str(packed), str(source), "--resolution",
+        [str(options.bench), "seams", atlas, other, str(source), "--resolution",
          options.resolution, "--views", options.views], f"{source}: seams"))
 
 
@@ -73,19 +91,20 @@ def main():
         measure.progress(f"[{number}/{len(options.files)}] {source}")
         with tempfile.TemporaryDirectory(prefix="wrapatlas_seams") as folder:
             of_file[source] = measured(options, source, pathlib.Path(folder))
-    titles = next(iter(of_file.values())).keys()
-    for title in titles:
+    first = next(iter(of_file.values()))
+    for title, entries in first.items():
+        places = PLACES if (0, "inside charts") in entries else PAIRED
         print(f"\n{title}\n")
-        levels = sorted({level for level, _ in next(iter(of_file.values()))[title]})
         rows = [[level, *(cell(mean_of([tables[title][level, place]
-                                        for tables in of_file.values()])) for place in PLACES)]
-                for level in levels]
-        print(measure.table(["level", *PLACES.values()], rows))
-    first = next(iter(titles))
-    print(f"\nLevel 0, mesh by mesh: {first}\n")
-    rows = [[source.name, *(cell(tables[first][0, place][0]) for place in PLACES),
-             *(cell(tables[title][0, place][0]) for title, place in zip(
-                 list(titles)[1:], list(PLACES)[:1:-1]))]
+                                        for tables in of_file.values()])) for place in places),
+                 sum(tables[title][level, list(places)[-1]][1] for tables in of_file.values())]
+                for level in sorted({level for level, _ in entries})]
+        print(measure.table(["level", *places.values(), "pixels of these"], rows))
+    baked, clamped, bare = list(first)[:3]
+    print(f"\nLevel 0, mesh by mesh: {baked}\n")
+    rows = [[source.name, *(cell(tables[baked][0, place][0]) for place in PLACES),
+             cell(tables[clamped][0, "up to 1 texel from the border of the atlas"][0]),
+             cell(tables[bare][0, "up to 1 texel from a chart's border"][0])]
             for source, tables in of_file.items()]
     print(measure.table(["<mesh", *PLACES.values(), "clamped, at the border of the atlas",
                          "not dilated, at the border of a chart"], rows))

@@ -86,7 +86,7 @@ void BestFitPage::seek(const RasterShape& shape, std::span<const double> angles,
   const std::size_t step = !care_.all_angles && halvings_ == 0 && domain.height > kFewRows ? 2 : 1;
   for (std::size_t i = 0; i < angles.size(); i += step) {
     const double angle = angles[i];
-    const ChartRaster raster = rasterize(shape, scale, angle, max_side);
+    const ChartRaster raster = rasterize_cells(shape, scale, angle, max_side);
     if (raster.width == 0) continue;
     const Piece piece = make_bare_piece(raster);
     if (!admits(domain, piece)) continue;
@@ -128,8 +128,8 @@ std::optional<BestFitPage::Spot> BestFitPage::settle(const RasterShape& shape,
                                                      const Candidate& candidate) {
   const Domain& domain = fine_.domain();
   const RasterScale scale = raster_scale(0);
-  const ChartRaster raster = rasterize(shape, scale, candidate.angle,
-                                       kLongestInDomains * std::max(domain.width, domain.height));
+  const ChartRaster raster = rasterize_cells(
+      shape, scale, candidate.angle, kLongestInDomains * std::max(domain.width, domain.height));
   if (raster.width == 0) return {};
   const Piece piece = make_bare_piece(raster);
   if (!admits(domain, piece)) return {};
@@ -214,8 +214,8 @@ std::optional<BestFitPage::Spot> BestFitPage::place_alone(const RasterShape& sha
   const Domain& domain = fine_.domain();
   const RasterScale scale = raster_scale(0);
   for (const double angle : angles) {
-    const ChartRaster raster =
-        rasterize(shape, scale, angle, kLongestInDomains * std::max(domain.width, domain.height));
+    const ChartRaster raster = rasterize_cells(
+        shape, scale, angle, kLongestInDomains * std::max(domain.width, domain.height));
     if (raster.width == 0) continue;
     const Piece piece = make_bare_piece(raster);
     if (!admits(domain, piece)) continue;

@@ -48,8 +48,10 @@ CoarseSearch::CoarseSearch(std::span<const ChartShape> shapes, Vec2 lengths, boo
   scale.cells_per_unit = {cells_per_unit_, cells_per_unit_};
   scale.growth = options_.grown * options_.side / std::sqrt(texels_);
   scale.coverage = Coverage::center;
+  PieceOptions pieces;
+  pieces.least_thickness = kThinnest;
   library_ = std::make_unique<PieceLibrary>(shapes_, scale, options_.angles,
-                                            kLongest * options_.side, kThinnest);
+                                            kLongest * options_.side, pieces);
   double sum = 0;
   for (const ChartShape& shape : shapes_) {
     // Of the root of the root of the area: large charts matter more than tiny ones.

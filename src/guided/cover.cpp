@@ -18,7 +18,7 @@ void Cover::set(const Domain& domain, const Piece& piece, int x, int y) {
   bits_.assign(static_cast<std::size_t>(words_) * static_cast<std::size_t>(rows_), 0);
   for (const PieceRun& run : piece.runs) {
     std::uint64_t* row =
-        bits_.data() + static_cast<std::ptrdiff_t>(run.row % domain.height) * words_;
+        bits_.data() + static_cast<std::ptrdiff_t>(modulo(run.row, domain.height)) * words_;
     for_each_part(x + run.begin, x + run.end, domain.width,
                   [&](int from, int to) { set_span(row, from, to); });
   }

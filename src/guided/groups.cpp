@@ -66,7 +66,7 @@ Groups::Covered Groups::covered(std::uint32_t chart, const Pose& pose) const {
   RasterScale scale;
   scale.cells_per_unit = {1 / cell_, 1 / cell_};
   scale.coverage = Coverage::center;
-  const ChartRaster raster = rasterize(shapes_[chart].raster, scale, pose.angle);
+  const ChartRaster raster = rasterize_cells(shapes_[chart].raster, scale, pose.angle);
   if (raster.width == 0) return {};
   const Piece piece = make_piece(raster);
   const auto at = [](double shift, double in_piece, int size) {

@@ -130,8 +130,9 @@ bool fits_alone(const PageTask& task, std::size_t chart, double scale) {
   const Domain domain = domain_of(frame, task.wrap);
   const RasterScale raster_scale = raster_scale_on(frame, scale, task.coverage);
   for (const double angle : task.angles[chart]) {
-    const ChartRaster raster = rasterize(task.shapes[chart].raster, raster_scale, angle,
-                                         kLongestInDomains * std::max(domain.width, domain.height));
+    const ChartRaster raster =
+        rasterize_cells(task.shapes[chart].raster, raster_scale, angle,
+                        kLongestInDomains * std::max(domain.width, domain.height));
     if (raster.width > 0 && admits(domain, make_bare_piece(raster))) return true;
   }
   return false;

@@ -1,6 +1,7 @@
 #include "guided/piece.h"
 
 #include <algorithm>
+#include <array>
 
 #include "guided/wrapped.h"
 
@@ -37,29 +38,29 @@ Piece piece_of(const ChartRaster& raster) {
   piece.angle = raster.angle;
   piece.offset = raster.offset;
   piece.centre = raster.centre;
-  if (raster.width > 0) piece.runs = runs_of(*raster.unturned);  // rasterize() turns nothing
+  if (raster.width > 0) piece.runs = runs_of(*raster.unturned);  // rasterize_cells() turns nothing
   return piece;
 }
 
-/// Moves some long runs that lie far apart to the front: most often one of them is in the way.
+/// Moves some long runs that lie far apart to the front, the longest of each of so many bands of
+/// rows: most often one of them is in the way.
 void lead_with_telling_runs(std::vector<PieceRun>& runs, int height) {
-  constexpr std::size_t kLead = 12;
-  std::vector<int> distance(runs.size(), std::max(1, height / 3));
-  for (std::size_t i = 0; i < std::min(kLead, runs.size()); ++i) {
-    std::size_t best = i;
-    int best_score = -1;
-    for (std::size_t k = i; k < runs.size(); ++k) {
-      const int score = (runs[k].end - runs[k].begin) * distance[k];
-      if (score > best_score) {
-        best_score = score;
-        best = k;
-      }
-    }
-    std::swap(runs[i], runs[best]);
-    std::swap(distance[i], distance[best]);
-    for (std::size_t k = i + 1; k < runs.size(); ++k) {
-      distance[k] = std::min(distance[k], std::abs(runs[k].row - runs[i].row));
-    }
+  constexpr int kBands = 12;
+  std::array<std::size_t, kBands> longest;
+  longest.fill(runs.size());
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    std::size_t& best = longest[static_cast<std::size_t>(kBands * runs[i].row / height)];
+    const bool is_first = best == runs.size();
+    if (is_first || runs[i].end - runs[i].begin > runs[best].end - runs[best].begin) best = i;
+  }
+  std::size_t front = 0;
+  for (const int band : spread_order(kBands)) {
+    const std::size_t at = longest[static_cast<std::size_t>(band)];
+    if (at == runs.size()) continue;
+    std::swap(runs[front], runs[at]);
+    // What stood in front may be another band's.
+    std::replace(longest.begin(), longest.end(), front, at);
+    ++front;
   }
 }
 
@@ -105,7 +106,7 @@ Piece make_bare_piece(const ChartRaster& raster) {
   return piece;
 }
 
-Piece make_piece(const ChartRaster& raster) {
+Piece make_piece(const ChartRaster& raster, bool with_core) {
   Piece piece = piece_of(raster);
   if (raster.width == 0) return piece;
   const BitLanes& rows = *raster.unturned;
@@ -123,7 +124,7 @@ Piece make_piece(const ChartRaster& raster) {
     }
   }
   lead_with_telling_runs(piece.spread, piece.height);
-  piece.core = core_of(rows);
+  if (with_core) piece.core = core_of(rows);
   return piece;
 }
 

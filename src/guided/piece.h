@@ -53,8 +53,8 @@ std::vector<PieceRun> core_of(const BitLanes& rows);
 
 Domain domain_of(const Frame& frame, Wrap wrap);
 
-/// The runs of a raster.
-Piece make_piece(const ChartRaster& raster);
+/// The runs of a raster. The core is of use where whole maps of costs are searched.
+Piece make_piece(const ChartRaster& raster, bool with_core = true);
 
 /// Without spread and core; runs that most often are in the way come first.
 Piece make_bare_piece(const ChartRaster& raster);

@@ -37,13 +37,18 @@ double total_area(std::span<const ChartShape> shapes) {
 }
 
 PieceLibrary::PieceLibrary(std::span<const ChartShape> shapes, const RasterScale& scale, int angles,
-                           int max_side, double least_thickness)
-    : shapes_(shapes), scale_(scale), angles_(angles), max_side_(max_side), pieces_(shapes.size()) {
+                           int max_side, const PieceOptions& options)
+    : shapes_(shapes),
+      scale_(scale),
+      angles_(angles),
+      max_side_(max_side),
+      cores_(options.cores),
+      pieces_(shapes.size()) {
   const double cells_per_unit = std::max(scale.cells_per_unit.x, scale.cells_per_unit.y);
   growth_.resize(shapes.size());
   reach_.resize(shapes.size());
   for (std::size_t i = 0; i < shapes.size(); ++i) {
-    const double missing = (least_thickness - shapes[i].thickness * cells_per_unit) / 2;
+    const double missing = (options.least_thickness - shapes[i].thickness * cells_per_unit) / 2;
     set_growth(i, std::max(scale.growth, missing));
   }
 }
@@ -65,8 +70,8 @@ const Piece& PieceLibrary::piece(std::size_t chart, int angle) {
     const double radians = shape.base_angle + 2 * std::numbers::pi * angle / angles_;
     RasterScale scale = scale_;
     scale.growth = growth_[chart];
-    const ChartRaster raster = rasterize(shape.raster, scale, radians, max_side_);
-    slot = std::make_unique<Piece>(make_piece(raster));
+    const ChartRaster raster = rasterize_cells(shape.raster, scale, radians, max_side_);
+    slot = std::make_unique<Piece>(make_piece(raster, cores_));
   }
   return *slot;
 }

@@ -27,13 +27,18 @@ std::vector<ChartShape> make_shapes(std::span<const Chart> charts);
 
 double total_area(std::span<const ChartShape> shapes);
 
+struct PieceOptions {
+  /// Cells; thinner charts are grown to it, so that on a coarse grid they do not fall between the
+  /// cells' centres.
+  double least_thickness = 0;
+  bool cores = true;  ///< to be made: of use where charts may go anywhere (see Piece)
+};
+
 /// Angle number k of a chart is base_angle + 2 pi k / angles. Not for several threads at once.
 class PieceLibrary {
  public:
-  /// Charts thinner than `least_thickness` (cells) are grown to it, so that on a coarse grid they
-  /// do not fall between the cells' centres.
   PieceLibrary(std::span<const ChartShape> shapes, const RasterScale& scale, int angles,
-               int max_side, double least_thickness = 0);
+               int max_side, const PieceOptions& options = {});
 
   [[nodiscard]] std::size_t charts() const { return shapes_.size(); }
   [[nodiscard]] int angles() const { return angles_; }
@@ -52,6 +57,7 @@ class PieceLibrary {
   std::vector<double> growth_;  ///< cells, per chart
   int angles_;
   int max_side_;
+  bool cores_;
   std::vector<int> reach_;
   std::vector<std::unordered_map<int, std::unique_ptr<Piece>>> pieces_;
 };

@@ -40,17 +40,21 @@ Refined refine(std::span<const ChartShape> shapes, const Frame& frame, const Pac
   SeparateOptions separate;
   separate.window = how.window;
   separate.stall_rounds = how.stall_rounds;
-  separate.angle_step = 12;
+  separate.angle_steps = {1, 4, 12};
+  PieceOptions pieces;
+  pieces.cores = false;  // no chart moves far
   const double area = total_area(shapes);
   Refined refined;
   std::optional<Packing>& best = refined.packing;
   Layout layout = start, good;
-  double step = how.first_step;
-  double least = std::numeric_limits<double>::max();  // overlap at any scale
+  double step = how.first_step / 2;                    // upwards
+  double least = std::numeric_limits<double>::max();   // overlap at any scale
+  double failed = std::numeric_limits<double>::max();  // the last scale at which it failed
   int in_vain = 0;
   while (!effort.spent()) {
     PieceLibrary library(shapes, raster_scale_on(frame, layout.scale, options.coverage),
-                         kAngleSteps, kLongestInDomains * std::max(frame.width, frame.height));
+                         kAngleSteps, kLongestInDomains * std::max(frame.width, frame.height),
+                         pieces);
     const bool fits = turn_to_fit(layout, library, domain, effort);
     std::vector<Place> places = to_places(layout, library, domain);
     Separator separator(library, domain, random);
@@ -80,14 +84,16 @@ Refined refine(std::span<const ChartShape> shapes, const Frame& frame, const Pac
           break;
         }
       }
+      failed = layout.scale;
       layout.scale *= 1 - how.first_step;
       if (layout.scale < std::max(how.least_scale, kLeastScale * start.scale)) break;
       continue;
     } else {
+      failed = layout.scale;
       layout = good;
-      step /= 2;
-      if (step < how.last_step) break;
     }
+    step = std::min(step, (failed / good.scale - 1) / 2);
+    if (step < how.last_step) break;
     layout.scale = good.scale * (1 + step);
   }
   return refined;

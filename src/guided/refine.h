@@ -14,8 +14,8 @@
 namespace wrapatlas {
 
 struct RefineOptions {
-  double first_step = 0.01;  ///< of the scale, relative
-  double last_step = 0.001;
+  double first_step = 0.01;  ///< of the scale, relative: downwards; upwards half of it
+  double last_step = 0.0005;
   int stall_rounds = 10;
   int window = 6;          ///< cells
   double least_scale = 0;  ///< texels per input unit; below it no first success is sought

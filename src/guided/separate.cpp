@@ -145,7 +145,13 @@ void Separator::move_nearby(std::size_t chart, const SeparateOptions& options) {
       stretch_around(old.y, piece.height, options.window + kSpare, domain_.height, domain_.wraps_y);
   fill_field(chart, x, y);
   Place to = old;
-  Shift best{kMostCost, 0, 0};
+  // Where it lies it may stay, or go to where it costs as much.
+  const auto in_field = [](int at, const Stretch& part, int size, bool wraps) {
+    return wraps ? modulo(at - part.origin, size) : at - part.origin;
+  };
+  const int here = cost_at(field_, piece.spread, in_field(old.x, x, domain_.width, domain_.wraps_x),
+                           in_field(old.y, y, domain_.height, domain_.wraps_y));
+  Shift best{static_cast<std::uint16_t>(std::min<int>(here + 1, kMostCost)), 0, 0};
   const auto try_angle = [&](int angle) {
     const Piece& turned = library_.piece(chart, angle);
     if (!admits(domain_, turned)) return;
@@ -154,7 +160,7 @@ void Separator::move_nearby(std::size_t chart, const SeparateOptions& options) {
                                  const Stretch& part, int length, int size, bool wraps, int& begin,
                                  int& end) {
       const int aligned = old_begin + static_cast<int>(std::lround(old_centre - centre));
-      const int at = wraps ? modulo(aligned - part.origin, size) : aligned - part.origin;
+      const int at = in_field(aligned, part, size, wraps);
       begin = std::max(at - options.window, 0);
       end = at + options.window + 1;
       const int room = part.cyclic ? part.count : part.count - length + 1;
@@ -177,7 +183,8 @@ void Separator::move_nearby(std::size_t chart, const SeparateOptions& options) {
   };
   try_angle(old.angle);
   for (int k = 0; k < 2 && best.cost > 0; ++k) {
-    const int step = 1 + random_.below(options.angle_step);
+    const int step = options.angle_steps[static_cast<std::size_t>(
+        random_.below(static_cast<int>(options.angle_steps.size())))];
     try_angle(modulo(old.angle + (k == 0 ? step : -step), library_.angles()));
   }
   put(chart, to);

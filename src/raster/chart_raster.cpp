@@ -85,8 +85,8 @@ RasterShape make_raster_shape(const Chart& chart) {
   return shape;
 }
 
-ChartRaster rasterize(const RasterShape& shape, const RasterScale& scale, double angle,
-                      int max_side) {
+ChartRaster rasterize_cells(const RasterShape& shape, const RasterScale& scale, double angle,
+                            int max_side) {
   const double growth = std::max(scale.growth, 0.0);
   const double cos_angle = std::cos(angle), sin_angle = std::sin(angle);
   thread_local std::vector<Vec2> points;
@@ -142,9 +142,16 @@ ChartRaster rasterize(const RasterShape& shape, const RasterScale& scale, double
     raster.height = rows.lanes;
   }
   raster.centre = centre + raster.offset;
-  raster.rows = lane_silhouette(rows, raster.cells);
-  raster.columns = cross_silhouette(rows, raster.cells);
   raster.unturned = std::make_shared<const BitLanes>(std::move(rows));
+  return raster;
+}
+
+ChartRaster rasterize(const RasterShape& shape, const RasterScale& scale, double angle,
+                      int max_side) {
+  ChartRaster raster = rasterize_cells(shape, scale, angle, max_side);
+  if (raster.width == 0) return raster;
+  raster.rows = lane_silhouette(*raster.unturned, raster.cells);
+  raster.columns = cross_silhouette(*raster.unturned, raster.cells);
   return raster;
 }
 

@@ -91,6 +91,10 @@ struct CellViews {
 ChartRaster rasterize(const RasterShape& shape, const RasterScale& scale, double angle,
                       int max_side = kMaxRasterSide);
 
+/// The same without silhouettes.
+ChartRaster rasterize_cells(const RasterShape& shape, const RasterScale& scale, double angle,
+                            int max_side = kMaxRasterSide);
+
 /// The raster of the same chart turned by +90 degrees, for grids of square cells. `angle` is left
 /// to the caller. O(width + height).
 ChartRaster quarter_turned(const ChartRaster& raster);

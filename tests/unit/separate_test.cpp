@@ -86,7 +86,9 @@ TEST(PieceLibrary, NothingSlipsThroughThinCharts) {
   }
   const std::vector<ChartShape> shapes = make_shapes(std::vector<Chart>{*chart_from_loops(loops)});
   EXPECT_NEAR(shapes[0].thickness, 0.001, 1e-5);
-  PieceLibrary as_it_is(shapes, cells(20), 64, 400), grown(shapes, cells(20), 64, 400, 1.5);
+  PieceOptions options;
+  options.least_thickness = 1.5;
+  PieceLibrary as_it_is(shapes, cells(20), 64, 400), grown(shapes, cells(20), 64, 400, options);
   for (int angle = 0; angle < 64; ++angle) {
     EXPECT_TRUE(leads_out(as_it_is.piece(0, angle)));
     EXPECT_FALSE(leads_out(grown.piece(0, angle))) << angle;

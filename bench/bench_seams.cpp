@@ -1,10 +1,10 @@
 // Seams: how far off a baked normal map is along the borders of charts and of the atlas, and how
-// far inside charts, as seen in pictures of the model from around it.
+// far inside charts, as seen in pictures of the model from around it; and at the same places of a
+// second atlas, cut in another way.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <span>
 
 #include "commands.h"
@@ -99,11 +99,11 @@ void print_map(const Atlas& atlas, std::span<const Pixel> pixels, const Texture&
 }
 
 Result<BakeResult> bake_normals(const Atlas& atlas, const BakeSource& source,
-                                std::optional<int> bleed = {}) {
+                                double bleed = kDefaultBleed) {
   BakeOptions options;
   options.width = options.height = atlas.side;
   options.v_points_down = atlas.v_points_down;
-  if (bleed) options.bleed = *bleed;
+  options.bleed = bleed;
   const BakedMap maps[] = {BakedMap::object_normals};
   return bake(atlas.low, source, maps, options);
 }
@@ -118,7 +118,10 @@ Texture undilated(const BakeResult& baked) {
   return bare;
 }
 
+/// 0 where a face has no UVs.
 double area_in_uv(const Mesh& mesh) {
+  const auto& corners = mesh.corner_texcoord;
+  if (corners.empty() || std::count(corners.begin(), corners.end(), kNone) > 0) return 0;
   double area = 0;
   for (std::uint32_t face = 0; face < mesh.face_count(); ++face) {
     const auto corner = texels_of(mesh, face, 1);
@@ -135,40 +138,46 @@ bool are_same_surface(const Mesh& a, const Mesh& b) {
   return true;
 }
 
+/// An atlas of a surface, and what is read from it.
+struct Cutting {
+  const Atlas& atlas;
+  MipMaps baked, bare;  ///< bare: nothing beyond the charts
+
+  Cutting(const Atlas& of, const BakeResult& result)
+      : atlas(of),
+        baked(make_mip_maps(result.maps.front(), MipFilter::normals)),
+        bare(make_mip_maps(undilated(result), MipFilter::normals)) {}
+
+  [[nodiscard]] double error(const Pixel& pixel, const MipMaps& maps, int level) const {
+    const Vec2 uv = uv_at(atlas.low, pixel.face, pixel.weights);
+    return degrees_between(read(atlas, uv, maps, level), pixel.truth);
+  }
+};
+
 /// The same places of a surface that was cut in two ways: where one atlas has the border of a chart
-/// and the other the inside of one. `pixels` are of `a`.
-void print_pair(const Atlas& a, const Atlas& b, std::span<const Pixel> pixels,
-                const BakeResult& baked_a, const BakeResult& baked_b) {
+/// and the other the inside of one. `pixels` are of the first.
+void print_pair(const Cutting& first, const Cutting& second, std::span<const Pixel> pixels) {
   constexpr double kInside = 3;  // texels from the border: more than what is read for a pixel
-  const MipMaps maps_a = make_mip_maps(baked_a.maps.front(), MipFilter::normals);
-  const MipMaps maps_b = make_mip_maps(baked_b.maps.front(), MipFilter::normals);
-  const MipMaps bare_a = make_mip_maps(undilated(baked_a), MipFilter::normals);
-  const MipMaps bare_b = make_mip_maps(undilated(baked_b), MipFilter::normals);
-  const ChartBorders borders(b.low, b.side);
-  std::vector<double> to_border;
+  const Atlas& other = second.atlas;
+  const ChartBorders borders(other.low, other.side);
+  std::vector<double> to_other_border;
   for (const Pixel& pixel : pixels) {
-    to_border.push_back(
-        borders.distance(pixel.face, texel_at(b.low, pixel.face, pixel.weights, b.side)));
+    const Vec2 texel = double(other.side) * uv_at(other.low, pixel.face, pixel.weights);
+    to_other_border.push_back(borders.distance(pixel.face, texel));
   }
   print_head("The same places at a border in one atlas, inside a chart of the other");
   for (int level = 0; level < kLevels; ++level) {
     const double texel = std::exp2(level);
     std::vector<double> at_border, inside_charts, bare;
     for (std::size_t i = 0; i < pixels.size(); ++i) {
-      const Pixel& pixel = pixels[i];
-      const Vec2 uv_b = texel_at(b.low, pixel.face, pixel.weights, 1);
-      const auto error_a = [&](const MipMaps& maps) {
-        return degrees_between(read(a, pixel.uv, maps, level), pixel.truth);
-      };
-      const auto error_b = [&](const MipMaps& maps) {
-        return degrees_between(read(b, uv_b, maps, level), pixel.truth);
-      };
-      const bool of_a = pixel.to_border < texel && to_border[i] >= kInside * texel;
-      const bool of_b = to_border[i] < texel && pixel.to_border >= kInside * texel;
-      if (!of_a && !of_b) continue;
-      at_border.push_back(of_a ? error_a(maps_a) : error_b(maps_b));
-      inside_charts.push_back(of_a ? error_b(maps_b) : error_a(maps_a));
-      bare.push_back(of_a ? error_a(bare_a) : error_b(bare_b));
+      const auto [least, most] = std::minmax(pixels[i].to_border, to_other_border[i]);
+      if (least >= texel || most < kInside * texel) continue;
+      const bool is_first = pixels[i].to_border < texel;
+      const Cutting& cut = is_first ? first : second;
+      const Cutting& whole = is_first ? second : first;
+      at_border.push_back(cut.error(pixels[i], cut.baked, level));
+      inside_charts.push_back(whole.error(pixels[i], whole.baked, level));
+      bare.push_back(cut.error(pixels[i], cut.bare, level));
     }
     fmt::print("| {} | at the border of a chart | {} |\n", level, summary(at_border));
     fmt::print("| {} | inside a chart | {} |\n", level, summary(inside_charts));
@@ -191,19 +200,37 @@ int bench_seams(const SeamBenchOptions& options) {
     if (!*model) return fail(model->error());
   }
   const Atlas atlas{triangulated(low->mesh).mesh, low->v_points_down, options.resolution};
+  Atlas second{triangulated(other->mesh).mesh, other->v_points_down, 0};
+  const double area = area_in_uv(atlas.low), second_area = area_in_uv(second.low);
+  if (!(area > 0 && second_area > 0)) {
+    return fail({ErrorKind::input, "", "both atlases need UVs on all faces", ""});
+  }
+  if (!are_same_surface(atlas.low, second.low)) {
+    return fail({ErrorKind::input, options.other, "is not the surface of " + options.low, ""});
+  }
+  // Texels of the same size, nearly: sides are halved for each level.
+  const int halves = 1 << (kLevels - 1);
+  const double side = options.resolution * std::sqrt(area / second_area);
+  second.side = halves * static_cast<int>(std::lround(side / halves));
+
   const Triangulated high_triangles = triangulated(high->mesh);
   BakeSource source;
   source.mesh = &high->mesh;
   source.v_points_down = high->v_points_down;
-  const auto baked = bake_normals(atlas, source), dilated = bake_normals(atlas, source, 0);
-  if (!baked) return fail(baked.error());
-  if (!dilated) return fail(dilated.error());
+  const auto baked = bake_normals(atlas, source), dilated = bake_normals(atlas, source, 0),
+             second_baked = bake_normals(second, source);
+  for (const auto* result : {&baked, &dilated, &second_baked}) {
+    if (!*result) return fail(result->error());
+  }
   const auto surface = HighSurface::build(high_triangles, source, -1, 1);
   if (!surface) return fail(surface.error());
   const auto walk = SurfaceWalk::build(atlas.low);
   if (!walk) return fail(walk.error());
   const Projection projection(atlas.low, *surface, baked->distance);
-  const std::vector<Pixel> pixels = visible_pixels(atlas.low, projection, options);
+  RenderOptions view;
+  view.views = options.views;
+  view.size = options.size;
+  const std::vector<Pixel> pixels = visible_pixels(atlas.low, projection, options.resolution, view);
   fmt::print("{} on {}: {} x {} texels, {} views of {} pixels\n", options.high, options.low,
              options.resolution, options.resolution, options.views, options.size);
   const Texture& map = baked->maps.front();
@@ -216,19 +243,7 @@ int bench_seams(const SeamBenchOptions& options) {
   print_map(atlas, pixels, map, "As baked, the pixels of the next table", Wrap::uv, kStride);
   print_table(pixels, "Without any seams: the filter alone, on the surface itself", kStride,
               [&](const Pixel& pixel, int level) { return seamless.normal(pixel, level); });
-
-  Atlas second{triangulated(other->mesh).mesh, other->v_points_down, 0};
-  if (!are_same_surface(atlas.low, second.low)) {
-    return fail({ErrorKind::input, options.other, "is not the surface of " + options.low, ""});
-  }
-  // Texels of the same size, nearly: sides are halved for each level.
-  const double side =
-      options.resolution * std::sqrt(area_in_uv(atlas.low) / area_in_uv(second.low));
-  const int halves = 1 << (kLevels - 1);
-  second.side = halves * static_cast<int>(std::lround(side / halves));
-  const auto second_baked = bake_normals(second, source);
-  if (!second_baked) return fail(second_baked.error());
-  print_pair(atlas, second, pixels, *baked, *second_baked);
+  print_pair({atlas, *baked}, {second, *second_baked}, pixels);
   return 0;
 }
 

@@ -65,7 +65,9 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   SeamBenchOptions seams;
   CLI::App& seams_app = *app.add_subcommand(
-      "seams", "Errors of a baked normal map along borders, beside those inside charts");
+      "seams",
+      "Errors of a baked normal map along borders, beside those inside charts and "
+      "those of a second atlas");
   seams_app.add_option("low", seams.low, "Model with a packed atlas")->required();
   seams_app.add_option("other", seams.other, "The same, cut into other charts")->required();
   seams_app.add_option("high", seams.high, "Model to be baked")->required();

@@ -5,7 +5,6 @@
 #include <numbers>
 
 #include "mesh/polygon_plane.h"
-#include "wrapatlas/render.h"
 
 namespace wrapatlas::bench {
 
@@ -21,9 +20,8 @@ std::array<Vec2, 3> texels_of(const Mesh& mesh, std::uint32_t face, int side) {
   return corner;
 }
 
-Vec2 texel_at(const Mesh& mesh, std::uint32_t face, const std::array<double, 3>& weights,
-              int side) {
-  const std::array<Vec2, 3> corner = texels_of(mesh, face, side);
+Vec2 uv_at(const Mesh& mesh, std::uint32_t face, const std::array<double, 3>& weights) {
+  const std::array<Vec2, 3> corner = texels_of(mesh, face, 1);
   return weights[0] * corner[0] + weights[1] * corner[1] + weights[2] * corner[2];
 }
 
@@ -62,13 +60,9 @@ Vec3 Seamless::seen_from(const Pixel& pixel, Vec2 by) const {
   return projection_.normal(projection_.find(end.triangle, end.weights));
 }
 
-std::vector<Pixel> visible_pixels(const Mesh& low, const Projection& projection,
-                                  const SeamBenchOptions& options) {
-  RenderOptions view;
-  view.views = options.views;
-  view.size = options.size;
+std::vector<Pixel> visible_pixels(const Mesh& low, const Projection& projection, int side,
+                                  const RenderOptions& view) {
   const Rendering rendering = render(low, view);
-  const int side = options.resolution;
   const ChartBorders borders(low, side);
   std::vector<Pixel> pixels;
   for (std::size_t i = 0; i < rendering.face.size(); ++i) {

@@ -7,7 +7,7 @@
 #include "bake/high_surface.h"
 #include "bake/surface_walk.h"
 #include "chart_borders.h"
-#include "commands.h"
+#include "wrapatlas/render.h"
 
 namespace wrapatlas::bench {
 
@@ -25,8 +25,7 @@ double degrees_between(const Vec3& a, const Vec3& b);
 
 /// Corners of a face of an atlas of so many texels a side.
 std::array<Vec2, 3> texels_of(const Mesh& mesh, std::uint32_t face, int side);
-/// A place of a face, in texels.
-Vec2 texel_at(const Mesh& mesh, std::uint32_t face, const std::array<double, 3>& weights, int side);
+Vec2 uv_at(const Mesh& mesh, std::uint32_t face, const std::array<double, 3>& weights);
 
 /// A place of the low mesh, and what the high one shows there.
 class Projection {
@@ -62,8 +61,9 @@ class Seamless {
   int side_;
 };
 
-/// Of the low mesh, triangles, from around it: those where a ray meets the high mesh.
-std::vector<Pixel> visible_pixels(const Mesh& low, const Projection& projection,
-                                  const SeamBenchOptions& options);
+/// What pictures from around the low mesh, triangles, show of it where a ray meets the high one; on
+/// an atlas of `side` texels.
+std::vector<Pixel> visible_pixels(const Mesh& low, const Projection& projection, int side,
+                                  const RenderOptions& view);
 
 }  // namespace wrapatlas::bench

@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""Seams of baked normal maps over several meshes: each is unwrapped, packed on the torus with a wide
-padding, its own normals baked, and the error of what is read from the map measured in pictures from
-around it (`wrapatlas_bench seams`): inside charts, along their borders, along the border of the
-atlas, at mip levels 0 to 4; the same where the texture is clamped, and where nothing is dilated;
-without any seams, which is what filtering alone leaves of the surface's own normals; and beside a
-second atlas, of charts that are cut to be shorter, wherever one has a border and the other the inside
-of a chart. Markdown tables of means in degrees over all pixels of all meshes, and per mesh for level
-0. Needs nothing but Python and the release build. Progress goes to stderr."""
+"""Seams of baked normal maps over several meshes: each is unwrapped, packed on the torus with a
+wide padding, its own normals baked, and the error of what is read from the map measured in pictures
+from around it (`wrapatlas_bench seams`): inside charts, along their borders, along the border of
+the atlas, at mip levels 0 to 4; the same where the texture is clamped, and where nothing is
+dilated; without any seams, which is what filtering alone leaves of the surface's own normals; and
+beside a second atlas, of charts that are cut to be shorter, wherever one has a border and the other
+the inside of a chart. Markdown tables of means in degrees over all pixels of all meshes, and per
+mesh for level 0. Needs nothing but Python and the release build. Progress goes to stderr."""
 
 import argparse
 import collections
@@ -29,6 +29,7 @@ PAIRED = {
     "inside a chart": "the same places inside a chart of the other atlas",
     "at the border, nothing around charts": "at the border, nothing around charts",
 }
+OF_PAIR = "at the border of a chart"  # what the table of two atlases has, and the others do not
 SHORTER = ["--max-extent", "0.8"]  # of the second atlas; 1.5 is the default
 
 
@@ -61,8 +62,9 @@ def packed(options, source, folder, more):
     folder.mkdir()
     flat = folder / "flat.obj"
     measure.run([options.wrapatlas, "unwrap", str(source), "-o", str(flat), "--stop-after", "flat",
-                 "--quiet", *more], f"{source}: unwrap")
-    measure.pack(options, flat, folder, "guided", "uv", str(source), ["--time", options.time])
+                 "--quiet", *more], f"{source}: unwrap, {folder.name}")
+    measure.pack(options, flat, folder, "guided", "uv", f"{source}, {folder.name}",
+                 ["--time", options.time])
     return str(folder / "packed.obj")
 
 
@@ -93,13 +95,15 @@ def main():
             of_file[source] = measured(options, source, pathlib.Path(folder))
     first = next(iter(of_file.values()))
     for title, entries in first.items():
-        places = PLACES if (0, "inside charts") in entries else PAIRED
+        places = PAIRED if (0, OF_PAIR) in entries else PLACES
         print(f"\n{title}\n")
         rows = [[level, *(cell(mean_of([tables[title][level, place]
-                                        for tables in of_file.values()])) for place in places),
-                 sum(tables[title][level, list(places)[-1]][1] for tables in of_file.values())]
+                                        for tables in of_file.values()])) for place in places)]
                 for level in sorted({level for level, _ in entries})]
-        print(measure.table(["level", *places.values(), "pixels of these"], rows))
+        print(measure.table(["level", *places.values()], rows))
+        if places is PAIRED:
+            pixels = sum(tables[title][0, OF_PAIR][1] for tables in of_file.values())
+            print(f"\n{pixels} pixels at level 0")
     baked, clamped, bare = list(first)[:3]
     print(f"\nLevel 0, mesh by mesh: {baked}\n")
     rows = [[source.name, *(cell(tables[baked][0, place][0]) for place in PLACES),

@@ -131,8 +131,9 @@ std::uint16_t cost_at(const Field& field, std::span<const PieceRun> runs, int x,
   for (const PieceRun& run : runs) {
     const std::uint16_t* row = field.rows()[y + run.row] + x;
     cost += static_cast<std::uint16_t>(row[run.end] - row[run.begin]);
+    if (cost >= kMostCost) return kMostCost;
   }
-  return static_cast<std::uint16_t>(std::min(cost, static_cast<unsigned>(kMostCost)));
+  return static_cast<std::uint16_t>(cost);
 }
 
 }  // namespace wrapatlas

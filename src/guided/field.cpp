@@ -85,16 +85,17 @@ __m128i last_of(__m128i numbers) {
 
 std::uint16_t sum_row(std::uint16_t* row, int count) {
   const __m128i largest = _mm_set1_epi16(kLargestWeight);
-  const __m128i numbers = _mm_set_epi16(7, 6, 5, 4, 3, 2, 1, 0);
+  const __m128i lanes = _mm_set_epi16(7, 6, 5, 4, 3, 2, 1, 0);
   const __m128i zero = _mm_setzero_si128();
   __m128i weight_before = zero, sum_before = zero;
   int x = 0;
   for (; x + 8 <= count; x += 8) {
     auto* cells = reinterpret_cast<__m128i*>(row + x);
     const __m128i changes = _mm_loadu_si128(cells);
-    if (_mm_movemask_epi8(_mm_cmpeq_epi16(changes, zero)) == 0xffff) {  // as most often
+    if (_mm_movemask_epi8(_mm_cmpeq_epi16(changes, zero)) ==
+        0xffff) {  // most often: the weight stays
       const __m128i bounded = _mm_min_epi16(weight_before, largest);
-      _mm_storeu_si128(cells, _mm_add_epi16(sum_before, _mm_mullo_epi16(bounded, numbers)));
+      _mm_storeu_si128(cells, _mm_add_epi16(sum_before, _mm_mullo_epi16(bounded, lanes)));
       sum_before = _mm_add_epi16(sum_before, _mm_slli_epi16(bounded, 3));
       continue;
     }

@@ -68,7 +68,7 @@ Groups::Covered Groups::covered(std::uint32_t chart, const Pose& pose) const {
   scale.coverage = Coverage::center;
   const ChartRaster raster = rasterize_cells(shapes_[chart].raster, scale, pose.angle);
   if (raster.width == 0) return {};
-  const Piece piece = make_piece(raster);
+  const Piece piece = make_bare_piece(raster);
   const auto at = [](double shift, double in_piece, int size) {
     return std::clamp(kPlane / 2 + static_cast<int>(std::lround(shift - in_piece)), 0,
                       kPlane - size);

@@ -38,18 +38,24 @@ Piece piece_of(const ChartRaster& raster) {
   piece.angle = raster.angle;
   piece.offset = raster.offset;
   piece.centre = raster.centre;
-  if (raster.width > 0) piece.runs = runs_of(*raster.unturned);  // rasterize_cells() turns nothing
+  if (raster.width > 0) piece.runs = runs_of(*raster.unturned);  // a new raster is not turned
   return piece;
 }
 
-/// Moves some long runs that lie far apart to the front, the longest of each of so many bands of
-/// rows: most often one of them is in the way.
-void lead_with_telling_runs(std::vector<PieceRun>& runs, int height) {
-  constexpr int kBands = 12;
+constexpr int kBands = 12;  ///< of rows
+
+/// Moves some long runs that lie far apart to the front, the longest of each band of rows: most
+/// often one of them is in the way.
+void lead_with_telling_runs(std::vector<PieceRun>& runs) {
+  if (runs.empty()) return;
+  const auto [first, last] = std::minmax_element(
+      runs.begin(), runs.end(), [](const PieceRun& a, const PieceRun& b) { return a.row < b.row; });
+  const int first_row = first->row, rows = last->row - first_row + 1;
   std::array<std::size_t, kBands> longest;
   longest.fill(runs.size());
   for (std::size_t i = 0; i < runs.size(); ++i) {
-    std::size_t& best = longest[static_cast<std::size_t>(kBands * runs[i].row / height)];
+    std::size_t& best =
+        longest[static_cast<std::size_t>(kBands * (runs[i].row - first_row) / rows)];
     const bool is_first = best == runs.size();
     if (is_first || runs[i].end - runs[i].begin > runs[best].end - runs[best].begin) best = i;
   }
@@ -77,7 +83,6 @@ std::vector<PieceRun> runs_of(const BitLanes& rows) {
 }
 
 std::vector<PieceRun> core_of(const BitLanes& rows) {
-  constexpr std::size_t kMostRuns = 12;
   BitLanes core = rows;
   for (int y = rows.lanes - 1; y >= 0; --y) {
     std::uint64_t* lane = core.lane(y);
@@ -95,18 +100,18 @@ std::vector<PieceRun> core_of(const BitLanes& rows) {
   }
   std::vector<PieceRun> runs;
   for (const PieceRun& run : runs_of(core)) add_cut(runs, run);
-  lead_with_telling_runs(runs, rows.lanes);
-  if (runs.size() > kMostRuns) runs.resize(kMostRuns);
+  lead_with_telling_runs(runs);
+  if (runs.size() > kBands) runs.resize(kBands);
   return runs;
 }
 
 Piece make_bare_piece(const ChartRaster& raster) {
   Piece piece = piece_of(raster);
-  lead_with_telling_runs(piece.runs, piece.height);
+  lead_with_telling_runs(piece.runs);
   return piece;
 }
 
-Piece make_piece(const ChartRaster& raster, bool with_core) {
+Piece make_piece(const ChartRaster& raster) {
   Piece piece = piece_of(raster);
   if (raster.width == 0) return piece;
   const BitLanes& rows = *raster.unturned;
@@ -123,8 +128,7 @@ Piece make_piece(const ChartRaster& raster, bool with_core) {
       add_cut(piece.spread, piece.runs[i]);
     }
   }
-  lead_with_telling_runs(piece.spread, piece.height);
-  if (with_core) piece.core = core_of(rows);
+  lead_with_telling_runs(piece.spread);
   return piece;
 }
 

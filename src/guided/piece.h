@@ -40,7 +40,8 @@ struct Piece {
   Vec2 centre;                 ///< where the chart's centre lies
   std::vector<PieceRun> runs;  ///< row by row
   std::vector<PieceRun> spread;  ///< the same cells, cut to kLongestRun, rows far apart first
-  /// Some of the cells that the piece covers wherever in a block it is put: see kBlock.
+  /// Some of the cells that the piece covers wherever in a block it is put (see kBlock), if they
+  /// were asked for.
   std::vector<PieceRun> core;
 };
 
@@ -53,8 +54,8 @@ std::vector<PieceRun> core_of(const BitLanes& rows);
 
 Domain domain_of(const Frame& frame, Wrap wrap);
 
-/// The runs of a raster. The core is of use where whole maps of costs are searched.
-Piece make_piece(const ChartRaster& raster, bool with_core = true);
+/// The runs of a raster, without core.
+Piece make_piece(const ChartRaster& raster);
 
 /// Without spread and core; runs that most often are in the way come first.
 Piece make_bare_piece(const ChartRaster& raster);

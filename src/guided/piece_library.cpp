@@ -71,7 +71,8 @@ const Piece& PieceLibrary::piece(std::size_t chart, int angle) {
     RasterScale scale = scale_;
     scale.growth = growth_[chart];
     const ChartRaster raster = rasterize_cells(shape.raster, scale, radians, max_side_);
-    slot = std::make_unique<Piece>(make_piece(raster, cores_));
+    slot = std::make_unique<Piece>(make_piece(raster));
+    if (cores_ && raster.width > 0) slot->core = core_of(*raster.unturned);
   }
   return *slot;
 }

@@ -40,16 +40,17 @@ Refined refine(std::span<const ChartShape> shapes, const Frame& frame, const Pac
   SeparateOptions separate;
   separate.window = how.window;
   separate.stall_rounds = how.stall_rounds;
-  separate.angle_steps = {1, 4, 12};
   PieceOptions pieces;
   pieces.cores = false;  // no chart moves far
   const double area = total_area(shapes);
   Refined refined;
   std::optional<Packing>& best = refined.packing;
   Layout layout = start, good;
-  double step = how.first_step / 2;                    // upwards
-  double least = std::numeric_limits<double>::max();   // overlap at any scale
-  double failed = std::numeric_limits<double>::max();  // the last scale at which it failed
+  double step = how.step_up;
+  double least = std::numeric_limits<double>::max();  // overlap at any scale
+  // A scale that is not tried again: the first one, on the way down, as the layout gets better on
+  // the way; the last that failed, on the way up.
+  double failed = std::numeric_limits<double>::infinity();
   int in_vain = 0;
   while (!effort.spent()) {
     PieceLibrary library(shapes, raster_scale_on(frame, layout.scale, options.coverage),
@@ -84,8 +85,8 @@ Refined refine(std::span<const ChartShape> shapes, const Frame& frame, const Pac
           break;
         }
       }
-      failed = layout.scale;
-      layout.scale *= 1 - how.first_step;
+      failed = std::min(failed, start.scale);
+      layout.scale *= 1 - how.step_down;
       if (layout.scale < std::max(how.least_scale, kLeastScale * start.scale)) break;
       continue;
     } else {

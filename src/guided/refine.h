@@ -14,8 +14,9 @@
 namespace wrapatlas {
 
 struct RefineOptions {
-  double first_step = 0.01;  ///< of the scale, relative: downwards; upwards half of it
-  double last_step = 0.0005;
+  double step_down = 0.01;    ///< of the scale, relative, until something holds
+  double step_up = 0.005;     ///< from then on, at first
+  double last_step = 0.0005;  ///< no smaller step up is tried
   int stall_rounds = 10;
   int window = 6;          ///< cells
   double least_scale = 0;  ///< texels per input unit; below it no first success is sought

@@ -1,6 +1,7 @@
 #include "guided/separate.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "guided/wrapped.h"
@@ -12,9 +13,17 @@ constexpr float kWeightUnit = 8;     ///< field weight of a cell whose pair has 
 constexpr float kLargestPair = 120;  ///< field weight of the dearest pair
 constexpr float kMostWeight = 1e6F;  ///< of a pair; far beyond what the field can tell apart
 constexpr float kDecay = 0.95F;
+/// By which a chart's angle may change when it moves nearby, to either side; few, as each angle has
+/// to be rasterised, and so that some of them have been before.
+constexpr std::array<int, 3> kTurnsNearby{1, 4, 12};
 
 /// Translations along one axis of the whole domain.
 int positions(int size, int piece, bool wraps) { return wraps ? size : size - piece + 1; }
+
+/// Where a cell of the domain is in a part of its axis.
+int in_part(int cell, const Stretch& part, int size, bool wraps) {
+  return wraps ? modulo(cell - part.origin, size) : cell - part.origin;
+}
 
 /// The part of an axis that a piece at `begin` with `length` cells covers when moved by up to
 /// `window` cells.
@@ -145,12 +154,9 @@ void Separator::move_nearby(std::size_t chart, const SeparateOptions& options) {
       stretch_around(old.y, piece.height, options.window + kSpare, domain_.height, domain_.wraps_y);
   fill_field(chart, x, y);
   Place to = old;
-  // Where it lies it may stay, or go to where it costs as much.
-  const auto in_field = [](int at, const Stretch& part, int size, bool wraps) {
-    return wraps ? modulo(at - part.origin, size) : at - part.origin;
-  };
-  const int here = cost_at(field_, piece.spread, in_field(old.x, x, domain_.width, domain_.wraps_x),
-                           in_field(old.y, y, domain_.height, domain_.wraps_y));
+  // What costs more than here is given up after a few runs. What costs as much may be taken.
+  const int here = cost_at(field_, piece.spread, in_part(old.x, x, domain_.width, domain_.wraps_x),
+                           in_part(old.y, y, domain_.height, domain_.wraps_y));
   Shift best{static_cast<std::uint16_t>(std::min<int>(here + 1, kMostCost)), 0, 0};
   const auto try_angle = [&](int angle) {
     const Piece& turned = library_.piece(chart, angle);
@@ -160,7 +166,7 @@ void Separator::move_nearby(std::size_t chart, const SeparateOptions& options) {
                                  const Stretch& part, int length, int size, bool wraps, int& begin,
                                  int& end) {
       const int aligned = old_begin + static_cast<int>(std::lround(old_centre - centre));
-      const int at = in_field(aligned, part, size, wraps);
+      const int at = in_part(aligned, part, size, wraps);
       begin = std::max(at - options.window, 0);
       end = at + options.window + 1;
       const int room = part.cyclic ? part.count : part.count - length + 1;
@@ -183,8 +189,8 @@ void Separator::move_nearby(std::size_t chart, const SeparateOptions& options) {
   };
   try_angle(old.angle);
   for (int k = 0; k < 2 && best.cost > 0; ++k) {
-    const int step = options.angle_steps[static_cast<std::size_t>(
-        random_.below(static_cast<int>(options.angle_steps.size())))];
+    const int step =
+        kTurnsNearby[static_cast<std::size_t>(random_.below(int{kTurnsNearby.size()}))];
     try_angle(modulo(old.angle + (k == 0 ? step : -step), library_.angles()));
   }
   put(chart, to);

@@ -2,7 +2,6 @@
 // pairs that go on overlapping become dearer.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -27,8 +26,6 @@ struct SeparateOptions {
   int window = 0;          ///< cells that a chart may move at a time; 0: anywhere
   double any_angles = 16;  ///< without a window: so many angles are looked at in a move, about,
   int near_angles = 2;     ///< and so many to each side of the chart's own
-  /// With a window: changes of the angle's number in a move. Few, as each angle is to be drawn.
-  std::array<int, 3> angle_steps{1, 1, 1};
 };
 
 class Separator {

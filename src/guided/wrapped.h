@@ -10,6 +10,7 @@ inline int modulo(int value, int size) {
   // A division takes longer than all the rest of what is done for a run of cells.
   if (value >= 0 && value < size) return value;
   if (value >= size && value - size < size) return value - size;
+  if (value < 0 && value + size >= 0) return value + size;
   const int rest = value % size;
   return rest < 0 ? rest + size : rest;
 }

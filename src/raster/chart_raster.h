@@ -91,7 +91,7 @@ struct CellViews {
 ChartRaster rasterize(const RasterShape& shape, const RasterScale& scale, double angle,
                       int max_side = kMaxRasterSide);
 
-/// The same without silhouettes.
+/// The same with `columns` and `rows` left empty, for packers that look at cells alone.
 ChartRaster rasterize_cells(const RasterShape& shape, const RasterScale& scale, double angle,
                             int max_side = kMaxRasterSide);
 

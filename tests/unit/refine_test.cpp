@@ -51,6 +51,20 @@ TEST(Refine, NamesChartsThatHoldEachOther) {
   }
 }
 
+/// Four squares fit up to a scale of 32, wherever the search for it begins.
+TEST(Refine, EndsCloseBelowTheLargestScale) {
+  const PackOptions options = options_of(64);
+  const std::vector<Chart> charts(4, test::rectangle(1, 1));
+  for (const double start : {24.0, 31.9, 32.2, 36.0}) {
+    const Layout layout{
+        start, {{0, {0.25, 0.25}}, {0, {0.75, 0.25}}, {0, {0.25, 0.75}}, {0, {0.75, 0.75}}}};
+    const Refined refined = refine_for(charts, options, layout);
+    ASSERT_TRUE(refined.packing);
+    EXPECT_LE(refined.packing->scale, 32);
+    EXPECT_GT(refined.packing->scale, 32 * (1 - 2 * RefineOptions().last_step)) << start;
+  }
+}
+
 /// Squares of half as much again as the atlas has have to shrink, unless they may not.
 TEST(Refine, ShrinksNoFurtherThanItIsToldTo) {
   const PackOptions options = options_of(64);

@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "guided/coarse.h"
@@ -93,6 +95,32 @@ TEST(PieceLibrary, NothingSlipsThroughThinCharts) {
     EXPECT_TRUE(leads_out(as_it_is.piece(0, angle)));
     EXPECT_FALSE(leads_out(grown.piece(0, angle))) << angle;
     EXPECT_LE(grown.piece(0, angle).width, grown.reach(0));
+  }
+}
+
+/// The cells of runs, in order.
+std::vector<std::pair<int, int>> cells_of(const std::vector<PieceRun>& runs) {
+  std::vector<std::pair<int, int>> cells;
+  for (const PieceRun& run : runs) {
+    for (int x = run.begin; x < run.end; ++x) cells.emplace_back(run.row, x);
+  }
+  std::sort(cells.begin(), cells.end());
+  return cells;
+}
+
+TEST(PieceLibrary, SpreadRunsAreTheSameCellsWithCoresAndWithout) {
+  const std::vector<ChartShape> shapes = random_shapes(3, 8);
+  PieceOptions options;
+  options.cores = false;
+  PieceLibrary with(shapes, cells(200), 64, 4000), without(shapes, cells(200), 64, 4000, options);
+  for (std::size_t chart = 0; chart < shapes.size(); ++chart) {
+    for (int angle = 0; angle < 64; angle += 7) {
+      const Piece& piece = with.piece(chart, angle);
+      EXPECT_FALSE(piece.core.empty());
+      EXPECT_TRUE(without.piece(chart, angle).core.empty());
+      ASSERT_EQ(cells_of(piece.spread), cells_of(piece.runs));
+      ASSERT_EQ(cells_of(without.piece(chart, angle).spread), cells_of(piece.runs));
+    }
   }
 }
 

@@ -169,9 +169,14 @@ void print_pair(const Cutting& first, const Cutting& second, std::span<const Pix
   for (int level = 0; level < kLevels; ++level) {
     const double texel = std::exp2(level);
     std::vector<double> at_border, inside_charts, bare;
+    std::size_t left_out = 0;  // where both atlases have a border near
     for (std::size_t i = 0; i < pixels.size(); ++i) {
       const auto [least, most] = std::minmax(pixels[i].to_border, to_other_border[i]);
-      if (least >= texel || most < kInside * texel) continue;
+      if (least >= texel) continue;
+      if (most < kInside * texel) {
+        ++left_out;
+        continue;
+      }
       const bool is_first = pixels[i].to_border < texel;
       const Cutting& cut = is_first ? first : second;
       const Cutting& whole = is_first ? second : first;
@@ -182,6 +187,7 @@ void print_pair(const Cutting& first, const Cutting& second, std::span<const Pix
     fmt::print("| {} | at the border of a chart | {} |\n", level, summary(at_border));
     fmt::print("| {} | inside a chart | {} |\n", level, summary(inside_charts));
     fmt::print("| {} | at the border, nothing around charts | {} |\n", level, summary(bare));
+    fmt::print("| {} | near borders of both, left out | - | - | {} |\n", level, left_out);
   }
 }
 

@@ -23,13 +23,13 @@ PLACES = {
     "up to 1 texel from the border of the atlas": "at the border of the atlas",
 }
 
-
 PAIRED = {
     "at the border of a chart": "at the border of a chart",
     "inside a chart": "the same places inside a chart of the other atlas",
     "at the border, nothing around charts": "at the border, nothing around charts",
 }
 OF_PAIR = "at the border of a chart"  # what the table of two atlases has, and the others do not
+LEFT_OUT = "near borders of both, left out"  # of it, a number of pixels
 SHORTER = ["--max-extent", "0.8"]  # of the second atlas; 1.5 is the default
 
 
@@ -97,13 +97,14 @@ def main():
     for title, entries in first.items():
         places = PAIRED if (0, OF_PAIR) in entries else PLACES
         print(f"\n{title}\n")
+        counted = [OF_PAIR, LEFT_OUT] if places is PAIRED else []
         rows = [[level, *(cell(mean_of([tables[title][level, place]
-                                        for tables in of_file.values()])) for place in places)]
+                                        for tables in of_file.values()])) for place in places),
+                 *(sum(tables[title][level, place][1] for tables in of_file.values())
+                   for place in counted)]
                 for level in sorted({level for level, _ in entries})]
-        print(measure.table(["level", *places.values()], rows))
-        if places is PAIRED:
-            pixels = sum(tables[title][0, OF_PAIR][1] for tables in of_file.values())
-            print(f"\n{pixels} pixels at level 0")
+        heads = ["pixels", LEFT_OUT] if counted else []
+        print(measure.table(["level", *places.values(), *heads], rows))
     baked, clamped, bare = list(first)[:3]
     print(f"\nLevel 0, mesh by mesh: {baked}\n")
     rows = [[source.name, *(cell(tables[baked][0, place][0]) for place in PLACES),

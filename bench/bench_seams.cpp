@@ -1,6 +1,6 @@
 // Seams: how far off a baked normal map is along the borders of charts and of the atlas, and how
-// far inside charts, as seen in pictures of the model from around it; and at the same places of a
-// second atlas, cut in another way.
+// far inside charts, as seen in pictures of the model from around it; beside the inside where the
+// surface bends as much, and at the same places of a second atlas, cut in another way.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,7 +11,9 @@
 #include "mesh/polygon_plane.h"
 #include "mesh/triangulate.h"
 #include "report.h"
+#include "seam_match.h"
 #include "seam_pixels.h"
+#include "threads/parallel.h"
 #include "wrapatlas/bake.h"
 #include "wrapatlas/model.h"
 
@@ -23,7 +25,7 @@ constexpr const char* kPlaceNames[] = {"inside charts", "of these, 2 to 6 texels
                                        "up to 1 texel from a chart's border",
                                        "up to 1 texel from the border of the atlas"};
 constexpr int kLevels = 5;
-constexpr std::size_t kStride = 16;  ///< pixels of which one is compared with a map without seams
+constexpr std::size_t kStride = 16;  ///< pixels inside charts of which one is compared with borders
 
 /// A model with an atlas.
 struct Atlas {
@@ -73,29 +75,20 @@ void print_head(const char* title) {
       title);
 }
 
-/// `shown(pixel, level)` is a normal.
-template <typename Shown>
-void print_table(std::span<const Pixel> pixels, const char* title, std::size_t stride,
-                 Shown&& shown) {
+void print_map(const Atlas& atlas, std::span<const Pixel> pixels, const Texture& map,
+               const char* title, Wrap wrap) {
+  const MipMaps maps = make_mip_maps(map, MipFilter::normals);
   print_head(title);
   for (int level = 0; level < kLevels; ++level) {
     Errors errors;
-    for (std::size_t i = 0; i < pixels.size(); i += stride) {
-      add_error(pixels[i], level, degrees_between(shown(pixels[i], level), pixels[i].truth),
-                errors);
+    for (const Pixel& pixel : pixels) {
+      const Vec3 normal = read(atlas, pixel.uv, maps, level, wrap);
+      add_error(pixel, level, degrees_between(normal, pixel.truth), errors);
     }
     for (std::size_t place = 0; place < kPlaces; ++place) {
       fmt::print("| {} | {} | {} |\n", level, kPlaceNames[place], summary(errors[place]));
     }
   }
-}
-
-void print_map(const Atlas& atlas, std::span<const Pixel> pixels, const Texture& map,
-               const char* title, Wrap wrap, std::size_t stride = 1) {
-  const MipMaps maps = make_mip_maps(map, MipFilter::normals);
-  print_table(pixels, title, stride, [&](const Pixel& pixel, int level) {
-    return read(atlas, pixel.uv, maps, level, wrap);
-  });
 }
 
 Result<BakeResult> bake_normals(const Atlas& atlas, const BakeSource& source,
@@ -185,9 +178,53 @@ void print_pair(const Cutting& first, const Cutting& second, std::span<const Pix
       bare.push_back(cut.error(pixels[i], cut.bare, level));
     }
     fmt::print("| {} | at the border of a chart | {} |\n", level, summary(at_border));
-    fmt::print("| {} | inside a chart | {} |\n", level, summary(inside_charts));
+    fmt::print("| {} | the same places inside a chart of the other atlas | {} |\n", level,
+               summary(inside_charts));
     fmt::print("| {} | at the border, nothing around charts | {} |\n", level, summary(bare));
     fmt::print("| {} | near borders of both, left out | - | - | {} |\n", level, left_out);
+  }
+}
+
+/// All pixels at borders of charts beside the inside of charts where the surface bends as much
+/// under the texels that are read; with the bare map too, on which borders show.
+void print_matched(const Cutting& cutting, std::span<const Pixel> pixels,
+                   const Seamless& seamless) {
+  print_head("All borders of charts, and the inside where the surface bends as much");
+  for (int level = 0; level < kLevels; ++level) {
+    const double texel = std::exp2(level);
+    std::vector<const Pixel*> at_borders, inside_charts;
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+      if (pixels[i].to_border < texel) {
+        at_borders.push_back(&pixels[i]);
+      } else if (pixels[i].to_atlas_border >= texel && i % kStride == 0) {
+        inside_charts.push_back(&pixels[i]);
+      }
+    }
+    const auto errors = [&](std::span<const Pixel* const> chosen) {
+      std::vector<PixelError> off(chosen.size());
+      parallel_for(chosen.size(), thread_count(0), [&](std::size_t i) {
+        const Pixel& pixel = *chosen[i];
+        const Filtered filtered = seamless.at(pixel, level);
+        off[i] = {cutting.error(pixel, cutting.baked, level),
+                  degrees_between(filtered.normal, pixel.truth), filtered.spread};
+      });
+      return off;
+    };
+    const std::vector<PixelError> inside_errors = errors(inside_charts);
+    std::vector<PixelError> border_errors = errors(at_borders);
+    const SeamMatch baked = match_borders(border_errors, inside_errors);
+    for (std::size_t i = 0; i < at_borders.size(); ++i) {
+      border_errors[i].map = cutting.error(*at_borders[i], cutting.bare, level);
+    }
+    const SeamMatch bare = match_borders(border_errors, inside_errors);
+    const auto print = [&](const char* where, double mean) {
+      fmt::print("| {} | {} | {:.2f} | - | {} |\n", level, where, mean, baked.pixels);
+    };
+    print("at the border of a chart", baked.border);
+    print("inside charts, where it bends as much", baked.inside);
+    print("at the border, by filtering alone", baked.seamless);
+    print("at the border, nothing around charts", bare.border);
+    fmt::print("| {} | no match inside, left out | - | - | {} |\n", level, baked.without_match);
   }
 }
 
@@ -246,10 +283,9 @@ int bench_seams(const SeamBenchOptions& options) {
   print_map(atlas, pixels, dilated->maps.front(), "Control: dilated alone, without --bleed",
             Wrap::uv);
   const Seamless seamless(atlas.low, projection, *walk, options.resolution);
-  print_map(atlas, pixels, map, "As baked, the pixels of the next table", Wrap::uv, kStride);
-  print_table(pixels, "Without any seams: the filter alone, on the surface itself", kStride,
-              [&](const Pixel& pixel, int level) { return seamless.normal(pixel, level); });
-  print_pair({atlas, *baked}, {second, *second_baked}, pixels);
+  const Cutting cutting(atlas, *baked);
+  print_matched(cutting, pixels, seamless);
+  print_pair(cutting, {second, *second_baked}, pixels);
   return 0;
 }
 

@@ -36,21 +36,24 @@ HighPoint Projection::find(std::uint32_t face, const std::array<double, 3>& weig
   return high_.find(point_at(triangle_of(low_, face), weights), unit(normal), distance_);
 }
 
-Vec3 Seamless::normal(const Pixel& pixel, int level) const {
+Filtered Seamless::at(const Pixel& pixel, int level) const {
   constexpr int kAcross = 4;  // samples of a texel
   const double texel = std::exp2(level);
   const Vec2 place = double(side_) * pixel.uv;
   const Vec2 first{std::floor(place.x / texel - 0.5), std::floor(place.y / texel - 0.5)};
   const Vec2 share = (1 / texel) * place - first - Vec2{0.5, 0.5};
   Vec3 sum;
+  double weights = 0;
   for (int i = 0; i < 4 * kAcross * kAcross; ++i) {
     const int column = i % (2 * kAcross), row = i / (2 * kAcross);
     const double weight =
         (column < kAcross ? 1 - share.x : share.x) * (row < kAcross ? 1 - share.y : share.y);
     const Vec2 at = first + (1.0 / kAcross) * Vec2{column + 0.5, row + 0.5};
     sum = sum + weight * seen_from(pixel, texel * at - place);
+    weights += weight;
   }
-  return unit(sum);
+  const double mean_length = std::min(length(sum) / weights, 1.0);
+  return {unit(sum), std::acos(mean_length) * 180 / std::numbers::pi};
 }
 
 Vec3 Seamless::seen_from(const Pixel& pixel, Vec2 by) const {

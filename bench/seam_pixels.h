@@ -42,6 +42,12 @@ class Projection {
   CornerVectors normals_;
 };
 
+/// What the texels that are read for a pixel have of a surface.
+struct Filtered {
+  Vec3 normal;        ///< the mean, unit
+  double spread = 0;  ///< of the normals around it, degrees: arc cosine of the mean's length
+};
+
 /// What filtering alone leaves of the truth: the mean over the texels that are read for a pixel,
 /// each of them where the surface has it, whatever chart that is on.
 class Seamless {
@@ -49,7 +55,7 @@ class Seamless {
   Seamless(const Mesh& low, const Projection& projection, const SurfaceWalk& walk, int side)
       : low_(low), projection_(projection), walk_(walk), side_(side) {}
 
-  [[nodiscard]] Vec3 normal(const Pixel& pixel, int level) const;
+  [[nodiscard]] Filtered at(const Pixel& pixel, int level) const;
 
  private:
   /// `by` in texels.

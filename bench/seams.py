@@ -3,10 +3,11 @@
 wide padding, its own normals baked, and the error of what is read from the map measured in pictures
 from around it (`wrapatlas_bench seams`): inside charts, along their borders, along the border of
 the atlas, at mip levels 0 to 4; the same where the texture is clamped, and where nothing is
-dilated; without any seams, which is what filtering alone leaves of the surface's own normals; and
-beside a second atlas, of charts that are cut to be shorter, wherever one has a border and the other
-the inside of a chart. Markdown tables of means in degrees over all pixels of all meshes, and per
-mesh for level 0. Needs nothing but Python and the release build. Progress goes to stderr."""
+dilated; all borders of charts beside what filtering alone leaves of the surface's own normals, and
+beside the inside of charts where these differ as much under the texels that are read; and the same
+places of a second atlas, of charts that are cut to be shorter, wherever one has a border and the
+other the inside of a chart. Markdown tables of means in degrees over all pixels of all meshes, and
+per mesh for level 0. Needs nothing but Python and the release build. Progress goes to stderr."""
 
 import argparse
 import collections
@@ -23,13 +24,15 @@ PLACES = {
     "up to 1 texel from the border of the atlas": "at the border of the atlas",
 }
 
-PAIRED = {
-    "at the border of a chart": "at the border of a chart",
-    "inside a chart": "the same places inside a chart of the other atlas",
-    "at the border, nothing around charts": "at the border, nothing around charts",
-}
-OF_PAIR = "at the border of a chart"  # what the table of two atlases has, and the others do not
-LEFT_OUT = "near borders of both, left out"  # of it, a number of pixels
+AT_BORDER = "at the border of a chart"
+BARE = "at the border, nothing around charts"
+# What each table of a comparison says; of the last, the number of pixels.
+COMPARED = [
+    [AT_BORDER, "inside charts, where it bends as much", "at the border, by filtering alone", BARE,
+     "no match inside, left out"],
+    [AT_BORDER, "the same places inside a chart of the other atlas", BARE,
+     "near borders of both, left out"],
+]
 SHORTER = ["--max-extent", "0.8"]  # of the second atlas; 1.5 is the default
 
 
@@ -95,16 +98,18 @@ def main():
             of_file[source] = measured(options, source, pathlib.Path(folder))
     first = next(iter(of_file.values()))
     for title, entries in first.items():
-        places = PAIRED if (0, OF_PAIR) in entries else PLACES
-        print(f"\n{title}\n")
-        counted = [OF_PAIR, LEFT_OUT] if places is PAIRED else []
+        compared = next((places for places in COMPARED if (0, places[-1]) in entries), None)
+        *places, left_out = compared or [*PLACES, None]
+        counted = [AT_BORDER, left_out] if compared else []
         rows = [[level, *(cell(mean_of([tables[title][level, place]
                                         for tables in of_file.values()])) for place in places),
                  *(sum(tables[title][level, place][1] for tables in of_file.values())
                    for place in counted)]
                 for level in sorted({level for level, _ in entries})]
-        heads = ["pixels", LEFT_OUT] if counted else []
-        print(measure.table(["level", *places.values(), *heads], rows))
+        heads = ["pixels", left_out] if compared else []
+        shown = [PLACES.get(place, place) for place in places]
+        print(f"\n{title}\n")
+        print(measure.table(["level", *shown, *heads], rows))
     baked, clamped, bare = list(first)[:3]
     print(f"\nLevel 0, mesh by mesh: {baked}\n")
     rows = [[source.name, *(cell(tables[baked][0, place][0]) for place in PLACES),

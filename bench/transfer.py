@@ -2,10 +2,13 @@
 """Textured models by `wrapatlas transfer`: texels before and after, and how like the original the
 result looks, its base colours rendered without light from several sides, as a Markdown table. Every
 glTF that is written is read by the Khronos validator (./dev test installs it). Models that cannot
-be moved are named below the table. Needs nothing but Python. Progress goes to stderr."""
+be moved are named below the table. Those that come to more texels than before are moved once more,
+to no more than they had (--resolution), in a second table. Needs nothing but Python. Progress goes
+to stderr."""
 
 import argparse
 import json
+import math
 import pathlib
 import shutil
 import statistics
@@ -14,6 +17,8 @@ import tempfile
 
 import measure
 
+HEADS = ["<model", "charts", "images", "million texels", "images after", "of", "million texels",
+         "change", "scale", "PSNR, dB", "SSIM", "s"]
 VALIDATOR = measure.REPOSITORY / "tests" / "gltf" / "validate.mjs"
 
 
@@ -39,9 +44,11 @@ def rendered(options, model, image, *more):
     return json.loads(report)
 
 
-def row(options, source, folder):
+def row(options, source, folder, resolution):
+    """Of the table; and the side of square pictures that have no more texels than before together,
+    if these have more."""
     moved = folder / f"moved{source.suffix}"
-    size = ["--resolution", options.resolution] if options.resolution else []
+    size = ["--resolution", resolution] if resolution else []
     report = json.loads(measure.run(
         [options.wrapatlas, "transfer", str(source), "-o", str(moved), "--padding",
          options.padding, "--time", options.time, "--threads", options.threads, "--quiet",
@@ -58,14 +65,32 @@ def row(options, source, folder):
     name = source.name if source.stem not in ("left", "right", "none") else \
         f"{source.parent.name}/{source.stem}"
     psnr = likeness["psnr"]
+    before, after = report["texels_before"], report["texels"]
+    equal_side = math.isqrt(before // report["images"]) // 4 * 4 if after > before else None
     return [name, sum(atlas["charts"] for atlas in atlases), report["images_before"],
-            f"{report['texels_before'] / 1e6:.2f}", report["images"],
+            f"{before / 1e6:.2f}", report["images"],
             ", ".join(f"{atlas['width']} x {atlas['height']}" for atlas in atlases),
-            f"{report['texels'] / 1e6:.2f}",
-            f"{100 * (report['texels'] / report['texels_before'] - 1):+.0f} %",
+            f"{after / 1e6:.2f}", f"{100 * (after / before - 1):+.0f} %",
             f"{min(atlas['texel_scale'] for atlas in atlases):.2f}",
             "equal" if psnr is None else f"{psnr:.1f}", f"{likeness['ssim']:.4f}",
-            f"{report['seconds']['total']:.1f}"]
+            f"{report['seconds']['total']:.1f}"], equal_side
+
+
+def move_all(options, files, resolutions):
+    """Rows of the table; {file: side} of those with more texels than before; failures."""
+    rows, larger, failures = [], {}, []
+    for number, source in enumerate(files, 1):
+        measure.progress(f"[{number}/{len(files)}] {source}")
+        with tempfile.TemporaryDirectory(prefix="wrapatlas_transfer") as folder:
+            try:
+                entries, side = row(options, source, pathlib.Path(folder), resolutions.get(source))
+            except measure.Failure as failure:
+                failures.append(str(failure))
+                continue
+        rows.append(entries)
+        if side:
+            larger[source] = str(side)
+    return rows, larger, failures
 
 
 def totals(rows):
@@ -84,17 +109,16 @@ def main():
     measure.print_origin(options, f"time {options.time}, {options.views} views of {options.size}")
     if options.keep:
         options.keep.mkdir(parents=True, exist_ok=True)
-    rows, failures = [], []
-    for number, source in enumerate(options.files, 1):
-        measure.progress(f"[{number}/{len(options.files)}] {source}")
-        with tempfile.TemporaryDirectory(prefix="wrapatlas_transfer") as folder:
-            try:
-                rows.append(row(options, source, pathlib.Path(folder)))
-            except measure.Failure as failure:
-                failures.append(str(failure))
-    print(measure.table(["<model", "charts", "images", "million texels", "images after", "of",
-                         "million texels", "change", "scale", "PSNR, dB", "SSIM", "s"], rows))
+    resolutions = {source: options.resolution for source in options.files}
+    rows, larger, failures = move_all(options, options.files, resolutions)
+    print(measure.table(HEADS, rows))
     print(totals(rows))
+    if larger and not options.resolution:
+        print("\nAt no more texels than before:\n")
+        rows, _, failed = move_all(options, larger, larger)
+        print(measure.table(HEADS, rows))
+        print(totals(rows))
+        failures += failed
     for failure in failures:
         print(f"not moved: {failure}")
 

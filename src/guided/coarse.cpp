@@ -18,6 +18,8 @@ constexpr int kFirstStride = 3;  ///< steps at a time until the first domain tha
 /// from one to the next, twice the deviation; failures after which another one is tried.
 constexpr double kMostAspect = 8, kAspectSpread = 0.1;
 constexpr int kTriesOfShape = 4;
+constexpr std::int64_t kMostNear =
+    10;  ///< cells of overlap that may come to nothing on a finer grid
 
 double square(double x) { return x * x; }
 double cells(const Domain& domain) { return double(domain.width) * domain.height; }
@@ -31,6 +33,12 @@ std::vector<Place> scaled(const std::vector<Place>& places, PieceLibrary& librar
 }
 
 }  // namespace
+
+Layout CoarseFind::on(Vec2 lengths) const {
+  Layout there = layout;
+  there.scale *= std::sqrt(lengths.x * lengths.y);
+  return there;
+}
 
 CoarseSearch::CoarseSearch(std::span<const ChartShape> shapes, Vec2 lengths, bool wraps_x,
                            bool wraps_y, const CoarseOptions& options, std::uint64_t seed)
@@ -112,13 +120,25 @@ double CoarseSearch::efficiency() const {
   return square(cells_per_unit_) * area_ / cells(best_.domain);
 }
 
-double CoarseSearch::best_aspect() const { return aspect_of(best_.domain); }
+CoarseFind CoarseSearch::find_of(const Attempt& attempt) {
+  CoarseFind find;
+  find.aspect = aspect_of(attempt.domain);
+  find.layout.spots = to_spots(attempt.places, *library_, attempt.domain);
+  find.layout.scale = cells_per_unit_ / std::sqrt(cells(attempt.domain));
+  return find;
+}
 
-Layout CoarseSearch::best(Vec2 lengths) {
-  Layout layout;
-  layout.spots = to_spots(best_.places, *library_, best_.domain);
-  layout.scale = cells_per_unit_ * std::sqrt(lengths.x * lengths.y / cells(best_.domain));
-  return layout;
+CoarseFind CoarseSearch::best() { return find_of(best_); }
+
+std::vector<CoarseFind> CoarseSearch::take_near(std::size_t count) {
+  std::vector<CoarseFind> finds;
+  for (Near& near : near_) {
+    if (finds.size() == count || near.overlap > kMostNear) break;
+    if (near.taken || cells(near.attempt.domain) >= cells(best_.domain)) continue;
+    near.taken = true;
+    finds.push_back(find_of(near.attempt));
+  }
+  return finds;
 }
 
 bool CoarseSearch::enlarge(std::span<const std::size_t> charts) {
@@ -184,7 +204,7 @@ void CoarseSearch::keep_near(std::int64_t overlap, const std::vector<Place>& pla
   const auto at =
       std::upper_bound(near_.begin(), near_.end(), overlap,
                        [](std::int64_t cells, const Near& near) { return cells < near.overlap; });
-  near_.insert(at, {overlap, {domain_, places}});
+  near_.insert(at, {overlap, {domain_, places}, false});
 }
 
 /// After a domain was not filled: mostly to one of the layouts that came close to filling it,

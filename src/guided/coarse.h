@@ -24,6 +24,15 @@ struct CoarseOptions {
   bool any_shape = false;  ///< of domain: the search begins with the one given, and may leave it
 };
 
+/// A layout found on the coarse grid, to be refined.
+struct CoarseFind {
+  double aspect = 1;  ///< of its domain, width by height
+  Layout layout;      ///< with its scale for a domain of area 1
+
+  /// The layout for a domain of this size in texels, and of the aspect, about.
+  [[nodiscard]] Layout on(Vec2 lengths) const;
+};
+
 /// One line of search on one shape of domain.
 class CoarseSearch {
  public:
@@ -38,11 +47,11 @@ class CoarseSearch {
   void run(Effort& effort, bool until_stuck);
 
   [[nodiscard]] bool found() const { return !best_.places.empty(); }
-  /// Width by height of the smallest domain filled so far. Precondition: found().
-  [[nodiscard]] double best_aspect() const;
-  /// The densest layout so far, for a domain of the shape of the best. `lengths`: of that domain,
-  /// texels. Precondition: found().
-  [[nodiscard]] Layout best(Vec2 lengths);
+  /// The smallest domain filled so far. Precondition: found().
+  [[nodiscard]] CoarseFind best();
+  /// Up to so many layouts in domains smaller than the best in which charts overlap a little, as
+  /// they may not on a finer grid. Each is handed out once.
+  [[nodiscard]] std::vector<CoarseFind> take_near(std::size_t count);
   /// Share of the domain that its charts cover, an estimate.
   [[nodiscard]] double efficiency() const;
   /// Draws charts that held each other on a finer grid a little larger, and goes on from the best
@@ -60,6 +69,7 @@ class CoarseSearch {
   struct Near {
     std::int64_t overlap;  ///< cells
     Attempt attempt;
+    bool taken = false;
   };
 
   [[nodiscard]] Domain of_area(double area, double aspect) const;
@@ -67,6 +77,7 @@ class CoarseSearch {
   [[nodiscard]] Domain smaller(const Domain& than, int steps);
   [[nodiscard]] bool fit_angles(const Domain& domain, std::vector<Place>& places);
   void begin_anew();
+  [[nodiscard]] CoarseFind find_of(const Attempt& attempt);
   void forget();
   void keep_near(std::int64_t overlap, const std::vector<Place>& places);
   void retreat();

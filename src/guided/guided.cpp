@@ -1,4 +1,4 @@
-// Few charts: modulo's packing, then separation; from 40 on best fit where that comes to nothing.
+// Few charts: a quick packing, then separation; from 40 on best fit where that comes to nothing.
 // More than 200: best fit, then separation if there is time.
 // Many: best fit, from different orders.
 
@@ -63,17 +63,24 @@ struct Task {
   Record record;
   std::optional<Error> failure;  ///< of the first packer
 
-  /// Offers a packing by modulo, which is quick and finds one where there is one.
+  /// Offers a packing by modulo, which is quick and finds one where there is one. Where nothing
+  /// wraps the older packers may come to more.
   void offer_first() {
     double area = 0;
     for (const Chart& chart : charts) area += chart.area;
-    PackOptions modulo = options;
-    modulo.method = Method::modulo;
-    auto packing = first(charts, modulo, area);
-    if (packing) {
-      record.offer(std::move(*packing), 0);
-    } else {
-      failure = packing.error();
+    std::vector<Method> methods{Method::modulo};
+    if (options.wrap == Wrap::none) methods.insert(methods.end(), {Method::zsgs04, Method::swg03});
+    for (const Method method : methods) {
+      if (record.best() && (record.best()->interrupted || record.enough(1))) return;
+      PackOptions quick = options;
+      quick.method = method;
+      auto packing = first(charts, quick, area);
+      if (packing) {
+        record.offer(std::move(*packing), 0);
+      } else if (!record.best()) {
+        failure = packing.error();
+        return;
+      }
     }
   }
 };

@@ -71,21 +71,32 @@ void Lines::each_line(Job job) {
                [&](std::size_t i) { job(*lines_[i]); });
 }
 
-/// The grid for the line's best layout.
-Frame Lines::frame_of(const Line& line) const {
+/// The grid for a layout of the line.
+Frame Lines::frame_of(const Line& line, double aspect) const {
   if (!any_shape()) return *line.frame;
-  const auto frame = frame_of_aspect(options_, line.frame->cell.x, line.coarse.best_aspect());
+  const auto frame = frame_of_aspect(options_, line.frame->cell.x, aspect);
   return frame ? *frame : *line.frame;
+}
+
+/// Refines a layout and offers what comes of it.
+Refined Lines::refine_find(Line& line, const CoarseFind& find, RefineOptions how,
+                           double least_efficiency, Effort& effort) {
+  const Frame frame = frame_of(line, find.aspect);
+  how.least_scale = std::sqrt(least_efficiency * frame.texels() / total_area(shapes_));
+  Refined fine =
+      refine(shapes_, frame, options_, find.on(frame.lengths()), how, effort, line.random);
+  if (fine.packing) {
+    record_.offer(Packing(*fine.packing), 1 + line.offers++ * begun_ + line.number);
+  }
+  return fine;
 }
 
 void Lines::improve(Line& line, double least_efficiency, Effort& effort) {
   if (!line.coarse.found() || line.coarse.efficiency() <= line.refined) return;
-  const Frame frame = frame_of(line);
-  const Layout layout = line.coarse.best(frame.lengths());
+  const CoarseFind find = line.coarse.best();
   RefineOptions how;
-  how.least_scale = std::sqrt(least_efficiency * frame.texels() / total_area(shapes_));
   how.gives_up = true;
-  Refined fine = refine(shapes_, frame, options_, layout, how, effort, line.random);
+  Refined fine = refine_find(line, find, how, least_efficiency, effort);
   if (!fine.held.empty()) {
     if (line.coarse.enlarge(fine.held)) {
       line.enlarged = true;
@@ -93,11 +104,22 @@ void Lines::improve(Line& line, double least_efficiency, Effort& effort) {
       return;
     }
     how.gives_up = false;
-    fine = refine(shapes_, frame, options_, layout, how, effort, line.random);
+    fine = refine_find(line, find, how, least_efficiency, effort);
   }
   if (fine.packing || !effort.spent()) line.refined = line.coarse.efficiency();
-  if (fine.packing) {
-    record_.offer(std::move(*fine.packing), 1 + line.offers++ * begun_ + line.number);
+}
+
+/// What the line came near to may hold on the final grid, and then it is denser. In the time that
+/// was kept for the last refinement.
+void Lines::improve_near(Line& line, double least_efficiency, Effort& effort) {
+  constexpr std::size_t kMost = 4;
+  if (!line.coarse.found()) return;
+  RefineOptions how;
+  how.gives_up = true;
+  how.step_down = how.step_up / 2;  // it is large already
+  for (const CoarseFind& find : line.coarse.take_near(kMost)) {
+    if (effort.spent()) return;
+    refine_find(line, find, how, least_efficiency, effort);
   }
 }
 
@@ -199,6 +221,11 @@ void Lines::go_on() {
     spend(from, to, false);
     improve_all(1);
   }
+  const double least = record_.efficiency();  // whichever line is first
+  each_line([&](Line& line) {
+    Effort effort = record_.effort(1);
+    improve_near(line, least, effort);
+  });
 }
 
 }  // namespace wrapatlas

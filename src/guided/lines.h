@@ -42,8 +42,11 @@ class Lines {
   void each_line(Job job);
   void spend(double from, double to, bool until_stuck, bool enlarged_alone = false);
   [[nodiscard]] bool any_shape() const { return options_.aspect == Aspect::search; }
-  [[nodiscard]] Frame frame_of(const Line& line) const;
+  [[nodiscard]] Frame frame_of(const Line& line, double aspect) const;
+  Refined refine_find(Line& line, const CoarseFind& find, RefineOptions how,
+                      double least_efficiency, Effort& effort);
   void improve(Line& line, double least_efficiency, Effort& effort);
+  void improve_near(Line& line, double least_efficiency, Effort& effort);
   /// True: of some lines charts are drawn larger from now on, as they held each other.
   bool improve_all(double share);
   /// Neither a time nor moves: it ends when it is stuck.

@@ -85,7 +85,7 @@ Refined refine(std::span<const ChartShape> shapes, const Frame& frame, const Pac
           break;
         }
       }
-      failed = std::min(failed, start.scale);
+      failed = start.scale;
       layout.scale *= 1 - how.step_down;
       if (layout.scale < std::max(how.least_scale, kLeastScale * start.scale)) break;
       continue;

@@ -262,6 +262,27 @@ TEST(Guided, IsDenserThanModulo) {
   EXPECT_GT(guided, modulo * 1.1);
 }
 
+TEST(Guided, WithoutWrapNoOlderPackerIsDenserHoweverShortTheSearch) {
+  int denser = 0;  // than modulo
+  for (std::uint64_t seed = 40; seed < 52; ++seed) {
+    const std::vector<Chart> charts = test::mixed_charts(seed, 7);
+    PackOptions options = guided_options();
+    options.wrap = Wrap::none;
+    options.moves = 1;
+    const double guided = pack(charts, options)->efficiency;
+    options.method = Method::modulo;
+    const double modulo = pack(charts, options)->efficiency;
+    for (const Method method : {Method::swg03, Method::zsgs04}) {
+      options.method = method;
+      const double older = pack(charts, options)->efficiency;
+      EXPECT_GE(guided, older);
+      denser += older > modulo ? 1 : 0;
+    }
+    EXPECT_GE(guided, modulo);
+  }
+  EXPECT_GT(denser, 0);
+}
+
 TEST(Guided, ManyChartsArePackedByBestFit) {
   const std::vector<Chart> charts = test::mixed_charts(1, 260);
   for (const Wrap wrap : {Wrap::uv, Wrap::u, Wrap::none}) {

@@ -210,7 +210,7 @@ TEST(CoarseSearch, ItsBestLayoutIsOneAndGetsNoWorse) {
       ASSERT_TRUE(search.found());
       EXPECT_GE(search.efficiency(), last);
       last = search.efficiency();
-      const Layout layout = search.best(lengths);
+      const Layout layout = search.best().on(lengths);
       EXPECT_NEAR(layout.scale * layout.scale * total_area(shapes), last * lengths.x * lengths.y,
                   1e-6 * lengths.x * lengths.y);
       ASSERT_EQ(layout.spots.size(), shapes.size());
@@ -225,6 +225,28 @@ TEST(CoarseSearch, ItsBestLayoutIsOneAndGetsNoWorse) {
     other.run(effort, false);
     EXPECT_GE(other.efficiency(), last);
   }
+}
+
+TEST(CoarseSearch, HandsOutOnceWhatCameNear) {
+  const auto shapes = random_shapes(3, 8);
+  const Vec2 lengths{70, 70};
+  CoarseSearch search(shapes, lengths, true, true, {.side = 96}, 7);
+  std::size_t handed_out = 0;
+  for (int i = 0; i < 5; ++i) {
+    Effort effort(nullptr);
+    effort.moves(3000);
+    search.run(effort, false);
+    ASSERT_TRUE(search.found());
+    for (auto finds = search.take_near(2); !finds.empty(); finds = search.take_near(2)) {
+      ASSERT_LE(finds.size(), 2);
+      for (const CoarseFind& find : finds) {
+        EXPECT_GT(find.layout.scale, search.best().layout.scale);
+        EXPECT_LT(overlapping_share(shapes, find.on(lengths), lengths, 3), 0.01);
+      }
+      handed_out += finds.size();
+    }
+  }
+  EXPECT_GT(handed_out, 2);
 }
 
 TEST(CoarseSearch, LeavesRoomAroundChartsThatHeldEachOther) {
@@ -245,7 +267,7 @@ TEST(CoarseSearch, LeavesRoomAroundChartsThatHeldEachOther) {
   run();
   ASSERT_TRUE(search.found());
   EXPECT_LT(search.efficiency(), before);
-  Layout layout = search.best(lengths);
+  Layout layout = search.best().on(lengths);
   EXPECT_EQ(overlapping_share(shapes, layout, lengths, 3), 0);
   layout.scale *= 1.02;  // as there is room to each side
   EXPECT_EQ(overlapping_share(shapes, layout, lengths, 3), 0);
@@ -255,7 +277,7 @@ TEST(CoarseSearch, LeavesRoomAroundChartsThatHeldEachOther) {
   Effort effort(nullptr);
   effort.moves(1000);
   other.run(effort, false);  // as large as in the other search
-  layout = other.best(lengths);
+  layout = other.best().on(lengths);
   layout.scale *= 1.02;
   EXPECT_EQ(overlapping_share(shapes, layout, lengths, 3), 0);
   EXPECT_TRUE(search.enlarge(first));
@@ -277,10 +299,10 @@ TEST(CoarseSearch, LeavesTheShapeItBeganWithWhereThatIsBetter) {
     search.run(effort, false);
     ASSERT_TRUE(search.found());
     efficiency[any ? 1 : 0] = search.efficiency();
-    const double aspect = search.best_aspect();
+    const double aspect = search.best().aspect;
     EXPECT_LT(std::abs(std::log(aspect)), any ? 2.1 : 0.03);
     const Vec2 lengths{70 * std::sqrt(aspect), 70 / std::sqrt(aspect)};
-    const Layout layout = search.best(lengths);
+    const Layout layout = search.best().on(lengths);
     EXPECT_NEAR(layout.scale * layout.scale * total_area(shapes), search.efficiency() * 4900, 1);
     EXPECT_LT(overlapping_share(shapes, layout, lengths, 0), 0.01);
   }

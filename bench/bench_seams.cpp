@@ -27,6 +27,8 @@ constexpr const char* kPlaceNames[] = {"inside charts", "of these, 2 to 6 texels
 constexpr int kLevels = 5;
 constexpr std::size_t kStride = 16;  ///< pixels inside charts of which one is compared with borders
 
+constexpr double kInside = 3;  ///< texels from a border: more than what is read for a pixel
+
 /// A model with an atlas.
 struct Atlas {
   Mesh low;  ///< triangles
@@ -65,7 +67,7 @@ std::string summary(std::vector<double>& values) {
   for (const double value : values) sum += value;
   const auto high = values.begin() + static_cast<std::ptrdiff_t>(0.99 * double(values.size() - 1));
   std::nth_element(values.begin(), high, values.end());
-  return fmt::format("{:.2f} | {:.1f} | {}", sum / double(values.size()), *high, values.size());
+  return fmt::format("{:.4f} | {:.1f} | {}", sum / double(values.size()), *high, values.size());
 }
 
 void print_head(const char* title) {
@@ -150,7 +152,6 @@ struct Cutting {
 /// The same places of a surface that was cut in two ways: where one atlas has the border of a chart
 /// and the other the inside of one. `pixels` are of the first.
 void print_pair(const Cutting& first, const Cutting& second, std::span<const Pixel> pixels) {
-  constexpr double kInside = 3;  // texels from the border: more than what is read for a pixel
   const Atlas& other = second.atlas;
   const ChartBorders borders(other.low, other.side);
   std::vector<double> to_other_border;
@@ -186,17 +187,18 @@ void print_pair(const Cutting& first, const Cutting& second, std::span<const Pix
 }
 
 /// All pixels at borders of charts beside the inside of charts where the surface bends as much
-/// under the texels that are read; with the bare map too, on which borders show.
+/// under the texels that are read.
 void print_matched(const Cutting& cutting, std::span<const Pixel> pixels,
                    const Seamless& seamless) {
-  print_head("All borders of charts, and the inside where the surface bends as much");
+  print_head("Borders of charts, and the inside where the surface bends as much");
   for (int level = 0; level < kLevels; ++level) {
     const double texel = std::exp2(level);
     std::vector<const Pixel*> at_borders, inside_charts;
     for (std::size_t i = 0; i < pixels.size(); ++i) {
+      const double least = std::min(pixels[i].to_border, pixels[i].to_atlas_border);
       if (pixels[i].to_border < texel) {
         at_borders.push_back(&pixels[i]);
-      } else if (pixels[i].to_atlas_border >= texel && i % kStride == 0) {
+      } else if (least >= kInside * texel && i % kStride == 0) {
         inside_charts.push_back(&pixels[i]);
       }
     }
@@ -206,25 +208,26 @@ void print_matched(const Cutting& cutting, std::span<const Pixel> pixels,
         const Pixel& pixel = *chosen[i];
         const Filtered filtered = seamless.at(pixel, level);
         off[i] = {cutting.error(pixel, cutting.baked, level),
+                  cutting.error(pixel, cutting.bare, level),
                   degrees_between(filtered.normal, pixel.truth), filtered.spread};
       });
       return off;
     };
-    const std::vector<PixelError> inside_errors = errors(inside_charts);
-    std::vector<PixelError> border_errors = errors(at_borders);
-    const SeamMatch baked = match_borders(border_errors, inside_errors);
-    for (std::size_t i = 0; i < at_borders.size(); ++i) {
-      border_errors[i].map = cutting.error(*at_borders[i], cutting.bare, level);
-    }
-    const SeamMatch bare = match_borders(border_errors, inside_errors);
-    const auto print = [&](const char* where, double mean) {
-      fmt::print("| {} | {} | {:.2f} | - | {} |\n", level, where, mean, baked.pixels);
+    const SpreadMatch match = match_by_spread(errors(at_borders), errors(inside_charts));
+    const auto print = [&](const char* where, double mean, std::size_t count) {
+      const std::string shown = count > 0 ? fmt::format("{:.4f}", mean) : "-";
+      fmt::print("| {} | {} | {} | - | {} |\n", level, where, shown, count);
     };
-    print("at the border of a chart", baked.border);
-    print("inside charts, where it bends as much", baked.inside);
-    print("at the border, by filtering alone", baked.seamless);
-    print("at the border, nothing around charts", bare.border);
-    fmt::print("| {} | no match inside, left out | - | - | {} |\n", level, baked.without_match);
+    const MeanError &border = match.border, &inside = match.inside, &rest = match.without_match;
+    print("at the border of a chart", border.map, border.pixels);
+    print("there, by filtering alone", border.seamless, border.pixels);
+    print("there, nothing around charts", border.bare, border.pixels);
+    // The mean over the border's pixels of what there is inside for each.
+    print("inside charts, where it bends as much", inside.map, border.pixels);
+    print("inside, by filtering alone", inside.seamless, border.pixels);
+    fmt::print("| {} | inside, of these classes | - | - | {} |\n", level, inside.pixels);
+    print("at borders that bend as no inside", rest.map, rest.pixels);
+    print("there, by filtering alone too", rest.seamless, rest.pixels);
   }
 }
 

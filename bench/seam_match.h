@@ -6,25 +6,29 @@
 
 namespace wrapatlas::bench {
 
-/// In degrees.
+/// How far normals are off at a pixel, in degrees.
 struct PixelError {
-  double map = 0;       ///< how far off a normal is that is read from a map,
-  double seamless = 0;  ///< and one that filtering alone leaves (Seamless)
+  double map = 0;       ///< read from a map,
+  double bare = 0;      ///< from one with nothing beyond the charts,
+  double seamless = 0;  ///< and what filtering alone leaves (Seamless)
   double spread = 0;    ///< of the surface's normals over the texels that are read
 };
 
-struct SeamMatch {
-  double border = 0;              ///< mean error of the map at borders,
-  double inside = 0;              ///< inside charts, class by class,
-  double seamless = 0;            ///< and of filtering alone at borders
-  std::size_t pixels = 0;         ///< at borders, that have a match
-  std::size_t without_match = 0;  ///< at borders
+/// Means over pixels.
+struct MeanError {
+  double map = 0, bare = 0, seamless = 0;
+  std::size_t pixels = 0;
 };
 
-/// Pixels are put into classes by the spread of normals, a class being a quarter of an octave.
-/// `inside` is the mean over the pixels at borders of what the class of each has inside charts. A
-/// class with fewer than ten pixels inside is no match.
-SeamMatch match_borders(std::span<const PixelError> at_borders,
-                        std::span<const PixelError> inside_charts);
+struct SpreadMatch {
+  MeanError border;         ///< at borders, of pixels that have a match,
+  MeanError inside;         ///< what their classes have inside charts; `pixels` of these classes,
+  MeanError without_match;  ///< and at the borders that have none
+};
+
+/// Pixels are put into classes by their spread, a class being a quarter of an octave. A class with
+/// fewer than ten pixels inside charts is no match.
+SpreadMatch match_by_spread(std::span<const PixelError> at_borders,
+                            std::span<const PixelError> inside_charts);
 
 }  // namespace wrapatlas::bench

@@ -24,14 +24,18 @@ PLACES = {
     "up to 1 texel from the border of the atlas": "at the border of the atlas",
 }
 
-AT_BORDER = "at the border of a chart"
-BARE = "at the border, nothing around charts"
-# What each table of a comparison says; of the last, the number of pixels.
-COMPARED = [
-    [AT_BORDER, "inside charts, where it bends as much", "at the border, by filtering alone", BARE,
-     "no match inside, left out"],
-    [AT_BORDER, "the same places inside a chart of the other atlas", BARE,
-     "near borders of both, left out"],
+# Of each table what its columns are, and of which the number of pixels is of interest: of a map, of
+# borders beside the inside, and of two atlases.
+TABLES = [
+    ([*PLACES], []),
+    (["at the border of a chart", "there, by filtering alone", "there, nothing around charts",
+      "inside charts, where it bends as much", "inside, by filtering alone",
+      "at borders that bend as no inside", "there, by filtering alone too"],
+     ["at the border of a chart", "inside, of these classes",
+      "at borders that bend as no inside"]),
+    (["at the border of a chart", "the same places inside a chart of the other atlas",
+      "at the border, nothing around charts"],
+     ["at the border of a chart", "near borders of both, left out"]),
 ]
 SHORTER = ["--max-extent", "0.8"]  # of the second atlas; 1.5 is the default
 
@@ -98,18 +102,15 @@ def main():
             of_file[source] = measured(options, source, pathlib.Path(folder))
     first = next(iter(of_file.values()))
     for title, entries in first.items():
-        compared = next((places for places in COMPARED if (0, places[-1]) in entries), None)
-        *places, left_out = compared or [*PLACES, None]
-        counted = [AT_BORDER, left_out] if compared else []
-        rows = [[level, *(cell(mean_of([tables[title][level, place]
-                                        for tables in of_file.values()])) for place in places),
-                 *(sum(tables[title][level, place][1] for tables in of_file.values())
-                   for place in counted)]
+        places, counted = next(table for table in TABLES
+                               if all((0, place) in entries for place in table[0]))
+        of_all = {key: [tables[title][key] for tables in of_file.values()] for key in entries}
+        rows = [[level, *(cell(mean_of(of_all[level, place])) for place in places),
+                 *(sum(count for _, count in of_all[level, place]) for place in counted)]
                 for level in sorted({level for level, _ in entries})]
-        heads = ["pixels", left_out] if compared else []
         shown = [PLACES.get(place, place) for place in places]
         print(f"\n{title}\n")
-        print(measure.table(["level", *shown, *heads], rows))
+        print(measure.table(["level", *shown, *(f"pixels {place}" for place in counted)], rows))
     baked, clamped, bare = list(first)[:3]
     print(f"\nLevel 0, mesh by mesh: {baked}\n")
     rows = [[source.name, *(cell(tables[baked][0, place][0]) for place in PLACES),

@@ -3,8 +3,8 @@
 result looks, its base colours rendered without light from several sides, as a Markdown table. Every
 glTF that is written is read by the Khronos validator (./dev test installs it). Models that cannot
 be moved are named below the table. Those that come to more texels than before are moved once more,
-to no more than they had (--resolution), in a second table. Needs nothing but Python. Progress goes
-to stderr."""
+to no more than they had (--resolution, all their atlases alike), in a second table, unless a
+resolution is given for all. Needs nothing but Python. Progress goes to stderr."""
 
 import argparse
 import json
@@ -45,8 +45,8 @@ def rendered(options, model, image, *more):
 
 
 def row(options, source, folder, resolution):
-    """Of the table; and the side of square pictures that have no more texels than before together,
-    if these have more."""
+    """(entries of the table, side): if there are more texels than before, the side of as many
+    square pictures that have no more, else None."""
     moved = folder / f"moved{source.suffix}"
     size = ["--resolution", resolution] if resolution else []
     report = json.loads(measure.run(
@@ -58,15 +58,16 @@ def row(options, source, folder, resolution):
     rendered(options, source, folder / "before.png")
     likeness = rendered(options, moved, folder / "after.png", "--compare",
                         str(folder / "before.png"))
-    if options.keep:
-        for name in ("before.png", "after.png"):
-            shutil.copy(folder / name, options.keep / f"{source.stem}.{name}")
-    atlases = report["atlases"]
     name = source.name if source.stem not in ("left", "right", "none") else \
         f"{source.parent.name}/{source.stem}"
+    if options.keep:
+        kept = "-".join([*name.split("/"), *([resolution] if resolution else [])])
+        for picture in ("before.png", "after.png"):
+            shutil.copy(folder / picture, options.keep / f"{kept}.{picture}")
+    atlases = report["atlases"]
     psnr = likeness["psnr"]
     before, after = report["texels_before"], report["texels"]
-    equal_side = math.isqrt(before // report["images"]) // 4 * 4 if after > before else None
+    equal_side = max(4, math.isqrt(before // report["images"]) // 4 * 4) if after > before else None
     return [name, sum(atlas["charts"] for atlas in atlases), report["images_before"],
             f"{before / 1e6:.2f}", report["images"],
             ", ".join(f"{atlas['width']} x {atlas['height']}" for atlas in atlases),
@@ -118,7 +119,7 @@ def main():
         rows, _, failed = move_all(options, larger, larger)
         print(measure.table(HEADS, rows))
         print(totals(rows))
-        failures += failed
+        failures += [f"at no more texels: {failure}" for failure in failed]
     for failure in failures:
         print(f"not moved: {failure}")
 

@@ -130,12 +130,11 @@ CoarseFind CoarseSearch::find_of(const Attempt& attempt) {
 
 CoarseFind CoarseSearch::best() { return find_of(best_); }
 
-std::vector<CoarseFind> CoarseSearch::take_near(std::size_t count) {
+std::vector<CoarseFind> CoarseSearch::near(std::size_t count) {
   std::vector<CoarseFind> finds;
-  for (Near& near : near_) {
+  for (const Near& near : near_) {
     if (finds.size() == count || near.overlap > kMostNear) break;
-    if (near.taken || cells(near.attempt.domain) >= cells(best_.domain)) continue;
-    near.taken = true;
+    if (cells(near.attempt.domain) >= cells(best_.domain)) continue;
     finds.push_back(find_of(near.attempt));
   }
   return finds;
@@ -204,7 +203,7 @@ void CoarseSearch::keep_near(std::int64_t overlap, const std::vector<Place>& pla
   const auto at =
       std::upper_bound(near_.begin(), near_.end(), overlap,
                        [](std::int64_t cells, const Near& near) { return cells < near.overlap; });
-  near_.insert(at, {overlap, {domain_, places}, false});
+  near_.insert(at, {overlap, {domain_, places}});
 }
 
 /// After a domain was not filled: mostly to one of the layouts that came close to filling it,

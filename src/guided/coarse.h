@@ -49,9 +49,10 @@ class CoarseSearch {
   [[nodiscard]] bool found() const { return !best_.places.empty(); }
   /// The smallest domain filled so far. Precondition: found().
   [[nodiscard]] CoarseFind best();
-  /// Up to so many layouts in domains smaller than the best in which charts overlap a little, as
-  /// they may not on a finer grid. Each is handed out once.
-  [[nodiscard]] std::vector<CoarseFind> take_near(std::size_t count);
+  /// Up to so many layouts, of domains smaller than the best, in which charts overlap a little, as
+  /// they may not on a finer grid; of those met since a domain was last filled. Precondition:
+  /// found().
+  [[nodiscard]] std::vector<CoarseFind> near(std::size_t count);
   /// Share of the domain that its charts cover, an estimate.
   [[nodiscard]] double efficiency() const;
   /// Draws charts that held each other on a finer grid a little larger, and goes on from the best
@@ -69,7 +70,6 @@ class CoarseSearch {
   struct Near {
     std::int64_t overlap;  ///< cells
     Attempt attempt;
-    bool taken = false;
   };
 
   [[nodiscard]] Domain of_area(double area, double aspect) const;

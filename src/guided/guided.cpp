@@ -24,7 +24,7 @@ constexpr std::size_t kMostSeparated = 200;
 /// Up to so many charts separation goes on from best fit.
 constexpr std::size_t kMostImproved = 1000;
 
-/// Up to so many charts separation begins from modulo's packing alone.
+/// Up to so many charts separation begins from a quick packing alone.
 constexpr std::size_t kFewCharts = 40;
 
 /// Texels to a cell of the final grid: one, but for large atlases, and for small ones of few
@@ -70,17 +70,20 @@ struct Task {
     for (const Chart& chart : charts) area += chart.area;
     std::vector<Method> methods{Method::modulo};
     if (options.wrap == Wrap::none) methods.insert(methods.end(), {Method::zsgs04, Method::swg03});
+    std::size_t number = 0;
     for (const Method method : methods) {
-      if (record.best() && (record.best()->interrupted || record.enough(1))) return;
+      if (record.best() && record.enough(1)) return;
       PackOptions quick = options;
       quick.method = method;
+      quick.progress = record.reporter();
       auto packing = first(charts, quick, area);
       if (packing) {
-        record.offer(std::move(*packing), 0);
+        record.offer(std::move(*packing), number++);
       } else if (!record.best()) {
         failure = packing.error();
         return;
       }
+      if (record.stopped()) return;
     }
   }
 };
@@ -99,8 +102,7 @@ void separate_or_fit(Task& task, std::span<const ChartShape> shapes, Lines& line
 
 void separate_few(Task& task) {
   task.offer_first();
-  if (task.failure && task.failure->kind == ErrorKind::interrupted) return;
-  if (task.record.best() && task.record.best()->interrupted) return;
+  if (task.record.stopped()) return;
   task.frames = without_mirrored(task.frames, task.options.wrap, task.record.best());
   const std::vector<ChartShape> shapes = make_shapes(task.charts);
   // With so little time for so many charts separation may come to nothing.

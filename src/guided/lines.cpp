@@ -116,8 +116,8 @@ void Lines::improve_near(Line& line, double least_efficiency, Effort& effort) {
   if (!line.coarse.found()) return;
   RefineOptions how;
   how.gives_up = true;
-  how.step_down = how.step_up / 2;  // it is large already
-  for (const CoarseFind& find : line.coarse.take_near(kMost)) {
+  how.step_down = how.step_up / 2;  // a domain smaller than the best: little may be lost
+  for (const CoarseFind& find : line.coarse.near(kMost)) {
     if (effort.spent()) return;
     refine_find(line, find, how, least_efficiency, effort);
   }

@@ -40,10 +40,23 @@ bool Record::poll() {
   const auto now = Clock::now();
   if (!lock || now - last_ < std::chrono::milliseconds(50)) return stopped_;
   last_ = now;
-  const double passed = std::chrono::duration<double>(now - start_).count();
+  return !tell(efficiency());
+}
+
+bool Record::tell(double efficiency) {
+  if (stopped_) return false;
+  const double passed = std::chrono::duration<double>(Clock::now() - start_).count();
   const double fraction = timed() ? std::min(passed / options_.time, 1.0) : 0.5;
-  if (!options_.progress({fraction, efficiency()})) stopped_ = true;
-  return stopped_;
+  if (!options_.progress({fraction, efficiency})) stopped_ = true;
+  return !stopped_;
+}
+
+std::function<bool(const Progress&)> Record::reporter() {
+  if (!options_.progress) return {};
+  return [this](const Progress& progress) {
+    const std::lock_guard lock(report_mutex_);
+    return tell(std::max(progress.best_efficiency, efficiency()));
+  };
 }
 
 }  // namespace wrapatlas

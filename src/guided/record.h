@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <functional>
 #include <mutex>
 #include <optional>
 
@@ -32,11 +33,16 @@ class Record {
   [[nodiscard]] bool stopped() const { return stopped_; }
   /// Reports progress now and then. True: stop.
   [[nodiscard]] bool poll();
+  /// What another packer is to report to while it works for this record: the listener hears of the
+  /// best of both, and its stop is one here.
+  [[nodiscard]] std::function<bool(const Progress&)> reporter();
   /// Polls. True if someone said stop, or this share of the time has passed and there is a packing.
   [[nodiscard]] bool enough(double share);
 
  private:
   using Clock = Effort::Clock;
+  /// Tells the listener, whose lock is held. False: stop.
+  bool tell(double efficiency);
 
   const PackOptions& options_;
   std::mutex mutex_, report_mutex_;

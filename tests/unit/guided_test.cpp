@@ -338,17 +338,30 @@ TEST(Guided, StopsWithTheBestSoFar) {
 }
 
 TEST(Guided, IsToldToStopOnce) {
-  PackOptions options = guided_options();
-  options.time = 1000;
-  int asked = 0;
-  options.progress = [&asked](const Progress& progress) {
-    EXPECT_LE(asked, 1) << "once more than it was told to stop";
-    asked += progress.best_efficiency > 0 ? 1 : 0;
-    return asked == 0;
-  };
-  const auto packing = pack(test::mixed_charts(3, 8), options);
-  ASSERT_TRUE(packing) << packing.error().message();
-  EXPECT_TRUE(packing->interrupted);
+  for (const Wrap wrap : {Wrap::uv, Wrap::none}) {
+    for (const int last : {1, 2, 3, 4}) {
+      PackOptions options = guided_options();
+      options.wrap = wrap;
+      options.time = 1000;
+      int asked = 0;
+      double seen = 0;
+      options.progress = [&](const Progress& progress) {
+        EXPECT_LT(asked, last) << "once more than it was told to stop";
+        EXPECT_GE(progress.best_efficiency, seen);
+        seen = progress.best_efficiency;
+        return ++asked < last;
+      };
+      const auto packing = pack(test::mixed_charts(3, 8), options);
+      EXPECT_EQ(asked, last);
+      if (packing) {
+        EXPECT_TRUE(packing->interrupted);
+        EXPECT_GE(packing->efficiency, seen);
+      } else {
+        EXPECT_EQ(packing.error().kind, ErrorKind::interrupted);
+        EXPECT_EQ(seen, 0);
+      }
+    }
+  }
 }
 
 /// If nothing lay inside the rings, no more than `area / apart` could be in use.

@@ -11,6 +11,7 @@
 #include "guided/piece_library.h"
 #include "guided/random.h"
 #include "support/random_piece.h"
+#include "support/same_packing.h"
 #include "support/shapes.h"
 #include "support/soup_check.h"
 #include "wrapatlas/pack.h"
@@ -242,11 +243,7 @@ TEST(Guided, MovesGiveTheSameBitsForAnyNumberOfThreads) {
     options.threads = 3;
     const auto three = pack(charts, options);
     ASSERT_TRUE(one && three);
-    EXPECT_EQ(one->scale, three->scale);
-    for (std::size_t i = 0; i < charts.size(); ++i) {
-      EXPECT_EQ(one->placements[i].angle, three->placements[i].angle);
-      EXPECT_EQ(one->placements[i].translation, three->placements[i].translation);
-    }
+    test::expect_same(*one, *three);
   }
 }
 
@@ -300,10 +297,7 @@ TEST(Guided, ManyChartsArePackedByBestFit) {
     options.threads = 1;
     const auto alone = pack(charts, options);
     ASSERT_TRUE(alone);
-    EXPECT_EQ(alone->scale, packing->scale);
-    for (std::size_t i = 0; i < charts.size(); ++i) {
-      EXPECT_EQ(alone->placements[i].translation, packing->placements[i].translation);
-    }
+    test::expect_same(*alone, *packing);
   }
 }
 

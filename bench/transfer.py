@@ -19,6 +19,7 @@ import measure
 
 HEADS = ["<model", "charts", "images", "million texels", "images after", "of", "million texels",
          "change", "scale", "PSNR, dB", "SSIM", "s"]
+GLTF = (".glb", ".gltf")
 VALIDATOR = measure.REPOSITORY / "tests" / "gltf" / "validate.mjs"
 
 
@@ -53,7 +54,7 @@ def row(options, source, folder, resolution):
         [options.wrapatlas, "transfer", str(source), "-o", str(moved), "--padding",
          options.padding, "--time", options.time, "--threads", options.threads, "--quiet",
          "--json", "-", *size, *options.how], str(source)))
-    if source.suffix in (".glb", ".gltf"):
+    if source.suffix in GLTF:
         measure.run(["node", str(VALIDATOR), str(moved)], f"{source}: the validator")
     rendered(options, source, folder / "before.png")
     likeness = rendered(options, moved, folder / "after.png", "--compare",
@@ -110,6 +111,9 @@ def main():
     measure.print_origin(options, f"time {options.time}, {options.views} views of {options.size}")
     if options.keep:
         options.keep.mkdir(parents=True, exist_ok=True)
+    has_validator = (VALIDATOR.parent / "node_modules" / "gltf-validator").is_dir()
+    if not has_validator and any(source.suffix in GLTF for source in options.files):
+        raise measure.Failure("the Khronos validator is not installed; ./dev test does that")
     resolutions = {source: options.resolution for source in options.files}
     rows, larger, failures = move_all(options, options.files, resolutions)
     print(measure.table(HEADS, rows))

@@ -26,8 +26,7 @@ constexpr const char* kPlaceNames[] = {"inside charts", "of these, 2 to 6 texels
                                        "up to 1 texel from the border of the atlas"};
 constexpr int kLevels = 5;
 constexpr std::size_t kStride = 16;  ///< pixels inside charts of which one is compared with borders
-
-constexpr double kInside = 3;  ///< texels from a border: more than what is read for a pixel
+constexpr double kInside = 3;        ///< texels from a border: more than what is read for a pixel
 
 /// A model with an atlas.
 struct Atlas {

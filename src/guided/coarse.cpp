@@ -18,8 +18,8 @@ constexpr int kFirstStride = 3;  ///< steps at a time until the first domain tha
 /// from one to the next, twice the deviation; failures after which another one is tried.
 constexpr double kMostAspect = 8, kAspectSpread = 0.1;
 constexpr int kTriesOfShape = 4;
-constexpr std::int64_t kMostNear =
-    10;  ///< cells of overlap that may come to nothing on a finer grid
+/// Cells of overlap that may come to nothing on a finer grid, whatever the side.
+constexpr std::int64_t kMostNear = 10;
 
 double square(double x) { return x * x; }
 double cells(const Domain& domain) { return double(domain.width) * domain.height; }

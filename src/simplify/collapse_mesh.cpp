@@ -12,7 +12,9 @@ CollapseMesh::CollapseMesh(const Surface& surface)
   for (std::uint32_t c = 0; c < corners_.size(); ++c) {
     corners_[c] = {surface.corner_vertex[c], surface.corner_twin[c], kNone};
     std::uint32_t& known = vertex_corner_[corners_[c].vertex];
-    if (known == kNone || corners_[c].twin == kNone) known = c;
+    const bool is_border = corners_[c].twin == kNone;
+    if (known == kNone || is_border) known = c;
+    if (is_border) is_closed_ = false;
   }
   number_edges();
 }

@@ -32,7 +32,9 @@ class CollapseMesh {
   /// One of the edge's corners; kNone if it is gone.
   [[nodiscard]] std::uint32_t corner_of_edge(std::uint32_t e) const { return edge_corner_[e]; }
   [[nodiscard]] std::uint32_t corner_of_vertex(std::uint32_t v) const { return vertex_corner_[v]; }
-  [[nodiscard]] bool is_border(std::uint32_t v) const { return twin(vertex_corner_[v]) == kNone; }
+  [[nodiscard]] bool is_border(std::uint32_t v) const {
+    return !is_closed_ && twin(vertex_corner_[v]) == kNone;
+  }
   [[nodiscard]] bool has_face(std::uint32_t f) const { return vertex(3 * f) != kNone; }
 
   [[nodiscard]] std::uint32_t face_count() const { return face_count_; }  ///< that are left
@@ -107,6 +109,7 @@ class CollapseMesh {
   std::vector<std::uint32_t> mark_;  ///< per vertex, the last stamp it got
   std::uint32_t stamp_ = 0;
   std::uint32_t face_count_ = 0;
+  bool is_closed_ = true;  ///< from the beginning on, so it stays
 };
 
 }  // namespace wrapatlas

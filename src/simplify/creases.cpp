@@ -12,6 +12,8 @@ Creases::Creases(const Mesh& triangles, const Surface& surface, CollapseMesh& me
   if (keep_uv_seams) find_seams(triangles, surface, mesh);
   if (surface.report.shared_points > 0) fix_shared_points(triangles, surface);
   fix_double_edges(mesh);
+  const auto is_free = [](Kind kind) { return kind == Kind::free; };
+  all_free_ = std::all_of(kind_.begin(), kind_.end(), is_free);
 }
 
 /// Sheets that meet in a point have a vertex each there, and would part.
@@ -57,6 +59,7 @@ void Creases::find_seams(const Mesh& triangles, const Surface& surface, const Co
 }
 
 bool Creases::allow(const CollapseMesh& mesh, std::uint32_t c) const {
+  if (all_free_) return true;
   const Kind a = kind_[mesh.vertex(c)], b = kind_[mesh.vertex(CollapseMesh::next(c))];
   if (a == Kind::fixed || a != b) return false;
   return a == Kind::free || is_seam_[mesh.edge(c)] != 0;

@@ -45,6 +45,7 @@ class Creases {
   void find_seams(const Mesh& triangles, const Surface& surface, const CollapseMesh& mesh);
 
   std::vector<Kind> kind_;
+  bool all_free_ = false;
   std::vector<std::uint8_t> is_seam_;
   std::vector<std::uint32_t> first_at_point_;  ///< empty: each is alone
 };

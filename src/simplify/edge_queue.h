@@ -1,6 +1,7 @@
 // Edges by their cost, cheapest first, of which any may change.
 #pragma once
 
+#include <bit>
 #include <cstdint>
 #include <vector>
 
@@ -8,25 +9,25 @@
 
 namespace wrapatlas {
 
-/// A heap of four children to a node. Of equal costs the edge of the lowest number comes first, so
-/// the order does not depend on how the edges came in.
+/// A heap of four children to a node. Of costs that agree to one in two million the edge of the
+/// lowest number comes first, so the order does not depend on how the edges came in.
 class EdgeQueue {
  public:
   explicit EdgeQueue(std::uint32_t edge_numbers) : place_(edge_numbers, kNone) {}
 
   [[nodiscard]] bool empty() const { return heap_.empty(); }
-  [[nodiscard]] std::uint32_t top() const { return heap_.front().edge; }
+  [[nodiscard]] std::uint32_t top() const { return edge_of(heap_.front()); }
 
   [[nodiscard]] bool has(std::uint32_t edge) const { return place_[edge] != kNone; }
 
-  /// Puts the edge in, or changes its cost. O(log n).
+  /// Puts the edge in, or changes its cost, which is >= 0. O(log n).
   void set(std::uint32_t edge, double cost) {
     std::uint32_t place = place_[edge];
     if (place == kNone) {
       place = static_cast<std::uint32_t>(heap_.size());
-      heap_.push_back({cost, edge});
+      heap_.push_back(0);
     }
-    settle(place, {cost, edge});
+    settle(place, item(edge, cost));
   }
 
   /// Nothing happens if it is not there. O(log n).
@@ -34,29 +35,27 @@ class EdgeQueue {
     const std::uint32_t place = place_[edge];
     if (place == kNone) return;
     place_[edge] = kNone;
-    const Item last = heap_.back();
+    const std::uint64_t last = heap_.back();
     heap_.pop_back();
-    if (last.edge != edge) settle(place, last);
+    if (edge_of(last) != edge) settle(place, last);
   }
 
  private:
-  struct Item {
-    double cost;
-    std::uint32_t edge;
+  /// The first bits of the cost, which as whole numbers are in the order of the costs, and the
+  /// edge.
+  static std::uint64_t item(std::uint32_t edge, double cost) {
+    return (std::bit_cast<std::uint64_t>(cost) >> 31U << 32U) | edge;
+  }
+  static std::uint32_t edge_of(std::uint64_t item) { return static_cast<std::uint32_t>(item); }
 
-    [[nodiscard]] bool before(const Item& other) const {
-      return cost < other.cost || (cost == other.cost && edge < other.edge);
-    }
-  };
-
-  void put(std::uint32_t place, const Item& item) {
+  void put(std::uint32_t place, std::uint64_t item) {
     heap_[place] = item;
-    place_[item.edge] = place;
+    place_[edge_of(item)] = place;
   }
 
   /// Puts the item where it belongs, if all others but the one at `place` are where they do.
-  void settle(std::uint32_t place, const Item& item) {
-    while (place > 0 && item.before(heap_[(place - 1) / 4])) {
+  void settle(std::uint32_t place, std::uint64_t item) {
+    while (place > 0 && item < heap_[(place - 1) / 4]) {
       put(place, heap_[(place - 1) / 4]);
       place = (place - 1) / 4;
     }
@@ -66,16 +65,16 @@ class EdgeQueue {
       if (first >= size) break;
       std::uint32_t least = first;
       for (std::uint32_t i = first + 1; i < size && i < first + 4; ++i) {
-        if (heap_[i].before(heap_[least])) least = i;
+        if (heap_[i] < heap_[least]) least = i;
       }
-      if (!heap_[least].before(item)) break;
+      if (!(heap_[least] < item)) break;
       put(place, heap_[least]);
       place = least;
     }
     put(place, item);
   }
 
-  std::vector<Item> heap_;
+  std::vector<std::uint64_t> heap_;
   std::vector<std::uint32_t> place_;  ///< per edge
 };
 

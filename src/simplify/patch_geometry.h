@@ -2,7 +2,6 @@
 #pragma once
 
 #include <span>
-#include <unordered_map>
 #include <vector>
 
 #include "simplify/collapse_mesh.h"
@@ -21,8 +20,16 @@ struct Star {
   /// Of more triangles than may be looked at whenever something near the vertex changes.
   static constexpr std::uint32_t kMostAtOnce = 32;
   [[nodiscard]] bool is_hub() const { return faces > kMostAtOnce; }
-  void add(const Vec3& n);
-  void take(const Vec3& n);
+  void add(const Vec3& n) {
+    squares = squares + Symmetric3::square(n);
+    normal = normal + n;
+    ++faces;
+  }
+  void take(const Vec3& n) {
+    squares = squares - Symmetric3::square(n);
+    normal = normal - n;
+    --faces;
+  }
 };
 
 class PatchGeometry {
@@ -36,9 +43,10 @@ class PatchGeometry {
 
   /// To be called before the edge of c is collapsed.
   void before_collapse(std::uint32_t c);
-  /// Also brings up to date what hangs on it. Sums are made anew from the triangles that are there
-  /// now; those of a hub after as many changes as it has triangles, so none drifts farther than a
-  /// sum over its triangles is off. O(d) for a vertex of degree d, whatever its neighbours'.
+  /// Also brings up to date what hangs on it. Its own sums are made anew. Those of a neighbour are
+  /// changed, and made anew after as many changes as it has triangles, or when little is left of
+  /// what was in them, so none drifts farther than a sum over its triangles is off. O(d) for a
+  /// vertex of degree d, whatever its neighbours'.
   void move(std::uint32_t v, const Vec3& point);
 
   /// Signed, of the faces that are left.
@@ -49,22 +57,20 @@ class PatchGeometry {
   [[nodiscard]] bool spoils_triangle(std::uint32_t c, const Vec3& point) const;
 
  private:
-  [[nodiscard]] Vec3 normal_of(std::uint32_t f) const;
-  [[nodiscard]] Star star_of(std::uint32_t v) const;
-  void sum_hub(std::uint32_t v);
-
-  const CollapseMesh& mesh_;
-  struct Vertex {
+  /// Two cache lines.
+  struct alignas(64) Vertex {
     Vec3 position;
     Star star;
+    std::uint32_t changes = 0;  ///< since its star was summed
+    double largest = 0;         ///< trace of the star's squares since then
   };
+
+  [[nodiscard]] Vec3 normal_of(std::uint32_t f) const;
+  void sum(std::uint32_t v);
+
+  const CollapseMesh& mesh_;
   std::vector<Vertex> vertices_;
   std::vector<Vec3> normals_;
-  struct Hub {
-    std::uint32_t changes = 0;  ///< since its star was summed
-    double largest = 0;         ///< trace of its squares since then
-  };
-  std::unordered_map<std::uint32_t, Hub> hubs_;  ///< looked up only
 };
 
 }  // namespace wrapatlas

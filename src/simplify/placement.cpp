@@ -25,7 +25,8 @@ namespace {
 
 constexpr double kVolumeWeight = 0.5, kLineWeight = 0.5;
 constexpr double kOrderOfEqualCosts = 1e-9;  ///< times length^6 / 36
-constexpr double kNoNormal = 1e-8;  ///< sums shorter than this share cancel but for rounding
+/// Of the sum of squares: sums whose square is less cancel but for rounding.
+constexpr double kNoNormal2 = 1e-16, kNoDirection2 = 1e-8;
 
 /// vᵀHv + 2cᵀv + k
 struct Quadratic {
@@ -60,7 +61,7 @@ struct Lines {
   /// The line in which the borders' directed area stays what it is.
   void preserve(Constraints& constraints) const {
     const double square = dot(direction, direction);
-    if (!(square > kNoNormal * squares)) return;
+    if (!(square > kNoDirection2 * squares)) return;
     const Vec3 on_line = 1 / square * cross(direction, moment);
     const Vec3 side = perpendicular(direction), other = cross(direction, side);
     constraints.add(side, dot(side, on_line));
@@ -100,7 +101,7 @@ class EdgePatch {
     const double line_share = 9 * kLineWeight / kVolumeWeight * edge2;  // of 1/36: 1/4
     Constraints constraints;
     lines.preserve(constraints);
-    constraints.add(normal_, determinant_, kNoNormal * std::sqrt(error_.h.trace()));
+    constraints.add(normal_, determinant_, kNoNormal2 * error_.h.trace());
     constraints.minimise(error_.h + line_share * lines.error.h,
                          error_.c + line_share * lines.error.c);
     if (!constraints.complete()) {

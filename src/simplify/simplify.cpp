@@ -72,8 +72,7 @@ class Simplifier {
     made.report = report_;
     std::vector<std::uint32_t> place(mesh_.vertex_numbers(), kNone);
     std::vector<std::uint32_t> texcoord(wedges_ ? wedges_->count() : 0, kNone);
-    for (std::uint32_t f = 0; f < mesh_.face_numbers(); ++f) {
-      if (!mesh_.has_face(f)) continue;
+    for (const std::uint32_t f : faces_left()) {
       for (std::uint32_t c = 3 * f; c < 3 * f + 3; ++c) add_corner(c, place, texcoord, made.mesh);
       made.mesh.face_begin.push_back(static_cast<std::uint32_t>(made.mesh.corner_position.size()));
       const std::uint32_t source = surface_.face_source[f];
@@ -85,6 +84,20 @@ class Simplifier {
   }
 
  private:
+  /// As they are in the mesh given.
+  [[nodiscard]] std::vector<std::uint32_t> faces_left() const {
+    std::vector<std::uint32_t> faces;
+    faces.reserve(mesh_.face_count());
+    for (std::uint32_t f = 0; f < mesh_.face_numbers(); ++f) {
+      if (mesh_.has_face(f)) faces.push_back(f);
+    }
+    const auto source = [&](std::uint32_t f) { return triangles_.source[surface_.face_source[f]]; };
+    std::sort(faces.begin(), faces.end(), [&](std::uint32_t a, std::uint32_t b) {
+      return std::pair(source(a), a) < std::pair(source(b), b);
+    });
+    return faces;
+  }
+
   [[nodiscard]] double volume() const { return geometry_.volume() / scale_ / scale_ / scale_; }
 
   [[nodiscard]] bool go_on() const {

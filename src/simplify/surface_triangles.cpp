@@ -29,9 +29,8 @@ std::vector<std::uint32_t> near_in_space(const Mesh& triangles) {
   }
   const Vec3 size = high - low;
   const double longest = std::max({size.x, size.y, size.z});
-  const double scale = longest > 0 ? kCells / longest : 0;
-  const auto cell = [&](double from_low) {
-    return spread(static_cast<std::uint32_t>(scale * from_low));
+  const auto cell = [&](double from_low) {  // not by a factor, which may be infinite
+    return longest > 0 ? spread(static_cast<std::uint32_t>(kCells * (from_low / longest))) : 0;
   };
   std::vector<std::uint64_t> keys(triangles.face_count());
   for (std::size_t t = 0; t < keys.size(); ++t) {

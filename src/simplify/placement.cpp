@@ -39,13 +39,11 @@ struct Quadratic {
 
 /// Sums over the edges of borders and seams at the ends of an edge.
 struct Lines {
-  bool any = false;
   Vec3 direction, moment;  ///< of borders alone: Σ e1, Σ e2
   double squares = 0;      ///< of borders alone: Σ |e1|²
   Quadratic error;         ///< Σ |e1 x v + e2|²
 
   void add(const Vec3& from, const Vec3& to, bool is_border) {
-    any = true;
     const Vec3 e1 = to - from, e2 = cross(from, to);
     const double square = dot(e1, e1);
     if (is_border) {
@@ -96,26 +94,34 @@ class EdgePatch {
   }
 
   [[nodiscard]] EdgePlacement place(std::span<const std::uint8_t> is_seam) const {
-    const Lines lines = lines_of(is_seam);
     const double edge2 = dot(edge_, edge_);
-    const double line_share = 9 * kLineWeight / kVolumeWeight * edge2;  // of 1/36: 1/4
     Constraints constraints;
-    lines.preserve(constraints);
+    Quadratic error = error_;
+    if (may_have_lines(is_seam)) {
+      const Lines lines = lines_of(is_seam);
+      const double line_share = 9 * kLineWeight / kVolumeWeight * edge2;  // of 1/36: 1/4
+      lines.preserve(constraints);
+      error.h = error.h + line_share * lines.error.h;
+      error.c = error.c + line_share * lines.error.c;
+      error.k += line_share * lines.error.k;
+    }
     constraints.add(normal_, determinant_, kNoNormal2 * error_.h.trace());
-    constraints.minimise(error_.h + line_share * lines.error.h,
-                         error_.c + line_share * lines.error.c);
+    constraints.minimise(error.h, error.c);
     if (!constraints.complete()) {
       const Quadratic shape = shape_of_triangles();
       constraints.minimise(shape.h, shape.c);
     }
     const Vec3 v = constraints.point();
-    const double error = error_.at(v) + (lines.any ? line_share * lines.error.at(v) : 0);
-    return {origin_ + v, kVolumeWeight / 36 * std::max(0.0, error) +
+    return {origin_ + v, kVolumeWeight / 36 * std::max(0.0, error.at(v)) +
                              kOrderOfEqualCosts / 36 * edge2 * edge2 * edge2};
   }
 
  private:
   [[nodiscard]] Vec3 seen(std::uint32_t v) const { return geometry_.position(v) - origin_; }
+
+  [[nodiscard]] bool may_have_lines(std::span<const std::uint8_t> is_seam) const {
+    return !is_seam.empty() || mesh_.is_border(a_) || mesh_.is_border(b_);
+  }
 
   [[nodiscard]] Lines lines_of(std::span<const std::uint8_t> is_seam) const {
     Lines lines;

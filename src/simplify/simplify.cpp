@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "simplify/collapse_mesh.h"
 #include "simplify/creases.h"

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "simplify/constraints.h"
 #include "simplify/edge_queue.h"
@@ -251,27 +252,76 @@ TEST(CollapseMesh, CollapsesWhatKeepsTheTopologyAndNothingElse) {
   EXPECT_GT(may_not, 1000);
 }
 
+/// The lowest of the costs that count as equal to it.
+double rounded_down(double cost) {
+  if (cost == 0) return 0;
+  int exponent = 0;
+  const double mantissa = std::frexp(cost, &exponent);  // from a half up: eight steps
+  return std::ldexp(std::floor(16 * mantissa), exponent);
+}
+
 TEST(EdgeQueue, GivesTheCheapestAlways) {
   std::mt19937_64 random(3);
-  EdgeQueue queue(50);
+  EdgeQueue queue(200);
   std::map<std::uint32_t, double> costs;
-  for (int step = 0; step < 20000; ++step) {
-    const auto edge = static_cast<std::uint32_t>(random() % 50);
+  int equal = 0, risen = 0, fallen = 0;
+  double last = 0;
+  for (int step = 0; step < 40000; ++step) {
+    const auto edge = static_cast<std::uint32_t>(random() % 200);
     if (random() % 3 == 0) {
       queue.remove(edge);
       costs.erase(edge);
     } else {
-      costs[edge] = double(random() % 20);  // many are equal
-      queue.set(edge, costs[edge]);
+      const double cost = random() % 20 == 0 ? 0 : std::exp2(test::uniform(random, -30, 30));
+      costs[edge] = cost;
+      queue.set(edge, cost);
     }
     ASSERT_EQ(queue.empty(), costs.empty());
-    if (costs.empty()) continue;
-    const auto least =
-        std::min_element(costs.begin(), costs.end(), [](const auto& a, const auto& b) {
-          return std::pair(a.second, a.first) < std::pair(b.second, b.first);
-        });
+    ASSERT_EQ(queue.has(edge), costs.contains(edge));
+    if (costs.empty() || random() % 4 != 0) continue;
+    const auto before = [](const auto& a, const auto& b) {
+      return std::pair(rounded_down(a.second), a.first) <
+             std::pair(rounded_down(b.second), b.first);
+    };
+    const auto least = std::min_element(costs.begin(), costs.end(), before);
     ASSERT_EQ(queue.top(), least->first);
+    const double of_least = rounded_down(least->second);
+    equal += std::any_of(costs.begin(), costs.end(), [&](const auto& other) {
+      return other.first != least->first && rounded_down(other.second) == of_least;
+    });
+    (of_least > last ? risen : fallen) += of_least != last ? 1 : 0;
+    last = of_least;
+    if (random() % 2 == 0) {  // as if it were collapsed
+      queue.remove(least->first);
+      costs.erase(least);
+    }
   }
+  EXPECT_GT(equal, 100);
+  EXPECT_GT(risen, 1000);
+  EXPECT_GT(fallen, 1000);
+}
+
+TEST(EdgeQueue, EmptiesInTheOrderOfCosts) {
+  std::mt19937_64 random(4);
+  EdgeQueue queue(5000);
+  for (std::uint32_t edge = 0; edge < 5000; ++edge) {
+    queue.set(edge, std::exp2(test::uniform(random, -100, 0)));
+    if (edge % 3 == 0) queue.set(edge, std::exp2(double(edge % 7) - 50));
+  }
+  std::pair<double, std::uint32_t> last{0, 0};
+  for (int left = 5000; left > 0; --left) {
+    ASSERT_FALSE(queue.empty());
+    const std::uint32_t edge = queue.top();
+    if (edge % 3 == 0) {
+      const std::pair<double, std::uint32_t> now{std::exp2(double(edge % 7) - 50), edge};
+      ASSERT_LT(last, now);
+      last = now;
+    }
+    queue.remove(edge);
+  }
+  EXPECT_TRUE(queue.empty());
+  queue.set(7, 0);  // below all that was there
+  EXPECT_EQ(queue.top(), 7U);
 }
 
 }  // namespace

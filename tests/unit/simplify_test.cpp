@@ -302,6 +302,17 @@ TEST(Simplify, IsTheSameEveryTimeAndAtAnySize) {
   }
 }
 
+TEST(Simplify, BoxesWhoseInverseIsInfinite) {
+  Mesh mesh = test::bumpy_ball(16, 0.05, 5);
+  for (Vec3& p : mesh.positions) p = 0x1.0p-1030 * p;  // subnormal: 44 bits are left
+  const Simplification less = simplified(mesh, 100);
+  EXPECT_EQ(less.report.faces_after, 100U);
+  EXPECT_EQ(topology_of(triangles_of(less.mesh)), (test::Topology{true, 2, 1, 0}));
+  Mesh flat = less.mesh;  // and one without any
+  for (Vec3& p : flat.positions) p = {1, 2, 3};
+  EXPECT_FALSE(simplify(flat));
+}
+
 /// The square of all UVs on a torus: a seam around and one across, which meet in a point.
 Mesh mapped_torus(std::uint32_t n) {
   Mesh mesh = test::torus(n);

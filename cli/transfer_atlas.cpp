@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "common.h"
+#include "pack/side_search.h"
 #include "wrapatlas/atlas.h"
 #include "wrapatlas/model.h"
 #include "wrapatlas/validate.h"
@@ -35,49 +36,6 @@ Result<Mesh> unwrapped(const TransferArguments& a, const Mesh& texels, bool v_po
   return std::move(made->mesh);
 }
 
-/// Sides of a square atlas, whole fours, closed in on the least at which no texel is lost by what a
-/// packing says of its scale at each.
-class SideSearch {
- public:
-  explicit SideSearch(double first) { go_to(first); }
-
-  [[nodiscard]] int side() const { return side_; }
-
-  /// Not even the padding had room.
-  void had_no_room() {
-    too_small_ = side_;
-    go_to(2.0 * side_);
-  }
-  /// After a packing made in a hurry, by which no side is ruled out.
-  void guess(double scale) {
-    if (scale >= 1) enough_ = enough_ == 0 ? side_ : std::min(enough_, side_);
-    go_to(side_ * kMargin / scale);
-  }
-  void below_what_is_enough() {
-    if (enough_ != 0 && side_ >= enough_) go_to((1 - kStep) * enough_);
-  }
-  /// Goes to the next side. False: none that is much smaller than the best would do.
-  bool narrow(double scale) {
-    (scale >= 1 ? enough_ : too_small_) = side_;
-    const double promised = side_ * kMargin / scale;
-    const bool is_between = promised > too_small_ && (enough_ == 0 || promised < enough_);
-    if (scale >= 1 && promised > side_) return false;
-    go_to(is_between ? promised : 0.5 * (too_small_ + enough_));
-    return enough_ == 0 || enough_ - side_ > kWorthATry * enough_;
-  }
-
- private:
-  static constexpr double kMargin = 1.002;                   ///< packings scatter
-  static constexpr double kStep = 0.01, kWorthATry = 0.007;  ///< of the side
-
-  void go_to(double side) {
-    side_ = std::max(4 * static_cast<int>(std::ceil(side / 4)), too_small_ + 4);
-  }
-
-  int side_ = 0, too_small_ = 0;
-  int enough_ = 0;  ///< 0: not known yet
-};
-
 /// Packs at the size asked for, or at about the smallest square at which no texel is lost.
 Result<Packing> pack_texels(const TransferArguments& a, const ChartSet& charts,
                             const std::string& label) {
@@ -88,36 +46,25 @@ Result<Packing> pack_texels(const TransferArguments& a, const ChartSet& charts,
     return !interrupted();
   };
   if (a.size_given) return pack(charts.charts, options);
-  constexpr int kMost = 16384, kHasty = 3, kRounds = 9;
-  SideSearch search(std::sqrt(charts.total_area() / 0.75));
+  const double full = std::sqrt(charts.total_area());  // if there were no gaps
+  SideSearch search(full / std::sqrt(0.75));
   std::optional<Packing> best;
-  for (int round = 0; round < kRounds; ++round) {
-    if (search.side() > kMost) {
-      return Error{ErrorKind::no_packing, "",
-                   fmt::format("to lose no texel the atlas would have {} a side", search.side()),
-                   "give --resolution; where textures repeat often, they had better stay"};
-    }
+  bool goes_on = full <= SideSearch::kMost;
+  while (goes_on) {
     options.width = options.height = search.side();
-    options.time = round < kHasty ? 0 : a.pack.options.time;
+    options.time = search.is_quick() ? 0 : a.pack.options.time;
     auto packing = pack(charts.charts, options);
-    if (!packing && packing.error().kind == ErrorKind::no_packing) {
-      search.had_no_room();
-      round = -1;
-      continue;
-    }
-    if (!packing || packing->interrupted) return packing;
-    const double scale = packing->scale;
-    const bool is_better = !best || (scale >= 1 ? best->scale < 1 || packing->width < best->width
-                                                : best->scale < scale);
-    if (is_better) best = *std::move(packing);
-    if (round < kHasty) {
-      search.guess(scale);
-      if (round + 1 == kHasty) search.below_what_is_enough();
-    } else if (!search.narrow(scale)) {
-      break;
-    }
+    const bool no_room = !packing && packing.error().kind == ErrorKind::no_packing;
+    if (!no_room && (!packing || packing->interrupted)) return packing;
+    const double scale = no_room ? 0 : packing->scale;
+    goes_on = search.go_on(scale);
+    if (scale >= 1 && packing->width == search.enough()) best = *std::move(packing);
   }
-  return *std::move(best);
+  if (best) return *std::move(best);
+  return Error{ErrorKind::no_packing, "",
+               fmt::format("to lose no texel the atlas would have more than {} a side",
+                           std::max(std::floor(full), double{SideSearch::kMost})),
+               "give --resolution; where textures repeat often, they had better stay"};
 }
 
 Status check_result(const PackArguments& a, const Mesh& before, const AtlasMesh& atlas,

@@ -44,13 +44,13 @@ struct Simplification {
   SimplifyReport report;
 };
 
-/// Collapses edges, cheapest first, as Lindstrom & Turk 1998 (memoryless simplification) say, until
-/// there are no more triangles than asked for or none can go. Keeps topology: a closed surface
-/// stays closed, pieces and handles stay, and where faces do not form a manifold nothing moves.
-/// Volume is kept but for rounding, where there is no border. The same bits every time. The mesh
-/// must pass validate_mesh. Errors: input (no face has three points), interrupted. O(n log n), and
-/// O(d) for each collapse that moves a point of d triangles: in all d² where a cone's flat base,
-/// say, is eaten from its middle.
+/// Collapses edges, cheapest first (costs to an eighth), as Lindstrom & Turk 1998 (memoryless
+/// simplification) say, until there are no more triangles than asked for or none can go. Keeps
+/// topology: a closed surface stays closed, pieces and handles stay, and where faces do not form a
+/// manifold nothing moves. Volume is kept but for rounding, where there is no border. The same bits
+/// every time. The mesh must pass validate_mesh. Errors: input (no face has three points),
+/// interrupted. O(n log n), and O(d) for each collapse that moves a point of d triangles: in all d²
+/// where a cone's flat base, say, is eaten from its middle.
 Result<Simplification> simplify(const Mesh& mesh, const SimplifyOptions& options = {});
 
 }  // namespace wrapatlas

@@ -1,4 +1,4 @@
-// Lindstrom & Turk 1998, section 3 (vertex placement): up to three planes that a point must lie in,
+// Lindstrom & Turk 1998, vertex placement: up to three planes that a point must lie in,
 // the earlier ones first.
 #pragma once
 

@@ -8,8 +8,6 @@
 #include <queue>
 #include <vector>
 
-#include "wrapatlas/geometry.h"
-
 namespace wrapatlas {
 
 /// Costs that agree in their power of two and in the next three bits, so to an eighth, count as
@@ -18,7 +16,8 @@ namespace wrapatlas {
 /// order. What comes first does not depend on how the edges came in.
 ///
 /// Each class of cost has a bucket; the cheapest that is not empty is emptied in order. What comes
-/// in at that class, or below it, goes to a heap.
+/// in at that class, or below it, goes to a heap. An edge that leaves its class is forgotten there
+/// only when its turn comes, so memory is O(n + changes of class).
 class EdgeQueue {
  public:
   explicit EdgeQueue(std::uint32_t edge_numbers)
@@ -41,8 +40,8 @@ class EdgeQueue {
     }
   }
 
-  /// Puts the edge in, or changes its cost, which is >= 0. O(1) as a rule, O(log n) for costs at
-  /// or below that of the last top.
+  /// Puts the edge in, or changes its cost, which is >= 0 (and no NaN). O(1) as a rule, O(log n)
+  /// for costs at or below that of the last top.
   void set(std::uint32_t edge, double cost) {
     const std::uint16_t of_cost = class_of(cost);
     if (class_[edge] == of_cost) return;  // it stands there

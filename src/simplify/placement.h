@@ -1,5 +1,5 @@
-// Lindstrom & Turk, "Fast and memory efficient polygonal simplification", IEEE Visualization 1998,
-// section 4: where the point goes that an edge collapses to, and what that costs. "Memoryless":
+// Lindstrom & Turk, "Fast and memory efficient polygonal simplification", IEEE Visualization 1998:
+// where the point goes that an edge collapses to, and what that costs. "Memoryless":
 // errors are to the triangles that are there, not to those of the beginning.
 #pragma once
 

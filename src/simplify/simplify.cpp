@@ -1,5 +1,5 @@
-// Lindstrom & Turk 1998: edges in the order of their cost, each collapsed to the point that
-// placement.h says; costs of all edges that the new triangles touch are found anew.
+// Lindstrom & Turk 1998: edges in the order of their cost, to an eighth, each collapsed to the
+// point that placement.h says; costs of all edges that the new triangles touch are found anew.
 #include "wrapatlas/simplify.h"
 
 #include <algorithm>
@@ -27,7 +27,7 @@ double scale_of(const std::vector<Vec3>& points) {
   for (const Vec3& p : points) {
     largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
   }
-  return largest > 0 ? std::exp2(-std::clamp(std::ilogb(largest), -500, 500)) : 1;
+  return largest > 0 ? std::exp2(-std::clamp(std::ilogb(largest), -1022, 1022)) : 1;
 }
 
 class Simplifier {

@@ -312,9 +312,10 @@ class Transfer(support.CommandTest):
         tiled = self.maker(picture=png(1024, 1024, lambda x, y: (x % 256, y % 256, 0)),
                            transform=True)
         info = tiled.json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"]
-        info["extensions"]["KHR_texture_transform"]["scale"] = [50, 50]
-        self.write("tiled.glb", tiled.glb())
-        self.refuse(4, ("tiled.glb", "--resolution"), "transfer", "tiled.glb", "-o", "b.glb")
+        for times in (50, 1e7):
+            info["extensions"]["KHR_texture_transform"]["scale"] = [times, times]
+            self.write("tiled.glb", tiled.glb())
+            self.refuse(4, ("tiled.glb", "--resolution"), "transfer", "tiled.glb", "-o", "b.glb")
         self.assertFalse(self.path("b.glb").exists())
 
 

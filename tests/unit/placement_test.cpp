@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "simplify/constraints.h"
 #include "simplify/edge_queue.h"
@@ -254,10 +255,10 @@ TEST(CollapseMesh, CollapsesWhatKeepsTheTopologyAndNothingElse) {
 
 /// The lowest of the costs that count as equal to it.
 double rounded_down(double cost) {
-  if (cost == 0) return 0;
+  if (cost < std::numeric_limits<double>::min()) return 0;  // of those that are tried
   int exponent = 0;
   const double mantissa = std::frexp(cost, &exponent);  // from a half up: eight steps
-  return std::ldexp(std::floor(16 * mantissa), exponent);
+  return std::ldexp(std::floor(16 * mantissa), exponent - 4);
 }
 
 TEST(EdgeQueue, GivesTheCheapestAlways) {
@@ -302,22 +303,31 @@ TEST(EdgeQueue, GivesTheCheapestAlways) {
 }
 
 TEST(EdgeQueue, EmptiesInTheOrderOfCosts) {
+  constexpr double kLargest = std::numeric_limits<double>::infinity();
+  constexpr double kLeast = std::numeric_limits<double>::denorm_min();
   std::mt19937_64 random(4);
+  std::vector<double> costs{0, kLeast, kLargest, std::numeric_limits<double>::max()};
+  while (costs.size() < 5000) costs.push_back(std::exp2(test::uniform(random, -1000, 1000)));
   EdgeQueue queue(5000);
   for (std::uint32_t edge = 0; edge < 5000; ++edge) {
-    queue.set(edge, std::exp2(test::uniform(random, -100, 0)));
-    if (edge % 3 == 0) queue.set(edge, std::exp2(double(edge % 7) - 50));
+    queue.set(edge, costs[edge]);
+    queue.set(edge, 1);  // to another class and back: it stands in its own twice
+    queue.set(edge, costs[edge]);
   }
-  std::pair<double, std::uint32_t> last{0, 0};
+  std::pair<double, std::uint32_t> last{-1, 0};
   for (int left = 5000; left > 0; --left) {
     ASSERT_FALSE(queue.empty());
     const std::uint32_t edge = queue.top();
-    if (edge % 3 == 0) {
-      const std::pair<double, std::uint32_t> now{std::exp2(double(edge % 7) - 50), edge};
-      ASSERT_LT(last, now);
-      last = now;
-    }
+    const double cost = costs[edge];
+    const std::pair now{std::isinf(cost) ? cost : rounded_down(cost), edge};
+    ASSERT_LT(last, now);
+    last = now;
     queue.remove(edge);
+    if (left % 5 == 0) {  // of the class that is being emptied
+      queue.set(edge, cost);
+      ASSERT_EQ(queue.top(), edge);
+      queue.remove(edge);
+    }
   }
   EXPECT_TRUE(queue.empty());
   queue.set(7, 0);  // below all that was there

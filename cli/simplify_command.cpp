@@ -100,7 +100,7 @@ void print_notes(const SimplifyArguments& arguments, const Model& model,
   if (has_uvs && !arguments.options.keep_uv_seams) {
     note("its UVs are not kept; --keep-seams does so");
   }
-  if (!model.face_material.empty()) note("its materials are not kept");
+  if (!model.face_material.empty()) note("its materials, textures and normals are not kept");
   if (report.dropped_faces > 0) {
     note(quantity(report.dropped_faces, "triangle") + " using a point twice: left out");
   }
@@ -114,10 +114,14 @@ void print_notes(const SimplifyArguments& arguments, const Model& model,
                      arguments.options.keep_uv_seams ? ", or seams meet or end" : ""));
   }
   if (report.faces_after > arguments.options.target_faces) {
+    const bool seams = arguments.options.keep_uv_seams && has_uvs;
     note(
-        fmt::format("{} remain, more than the {} of --faces: each collapse left would change "
-                    "the topology, turn a triangle over or part a seam",
-                    quantity(report.faces_after, "triangle"), arguments.options.target_faces));
+        fmt::format("{} remain, more than the {} of --faces: each collapse left would change the "
+                    "topology{} turn a triangle over; {}",
+                    quantity(report.faces_after, "triangle"), arguments.options.target_faces,
+                    seams ? ", part a seam or" : " or",
+                    seams ? "without --keep-seams more can go"
+                          : "small pieces that are not needed had better go before"));
   }
 }
 

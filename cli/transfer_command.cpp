@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "common.h"
@@ -142,10 +143,19 @@ void say_result(const TransferArguments& a, const std::vector<NewAtlas>& atlases
   for (std::size_t i = 0; i < atlases.size(); ++i) {
     if (atlases[i].thinned < kWorthSaying) continue;
     const std::string number = atlases.size() > 1 ? fmt::format("atlas {}: ", i + 1) : "";
+    const bool is_of_size = a.size_given && atlases[i].packing.scale < 0.9;  // of all faces alike
     say("{}: note: {}{:.0f} % of the old texels lie on faces that have less than nine tenths of "
         "their detail now{}\n",
         a.pack.input, number, 100 * atlases[i].thinned,
-        a.unwrap ? ": a new chart has one scale, its faces had several" : "");
+        is_of_size ? " at this size"
+                   : (a.unwrap ? ": a new chart has one scale, its faces had several" : ""));
+  }
+  constexpr double kMuchMore = 2;
+  const double growth = static_cast<double>(totals.texels) /
+                        static_cast<double>(std::max<std::size_t>(1, totals.texels_before));
+  if (growth > kMuchMore) {
+    say("{}: note: {:.1f} times as many texels as before; --resolution sets a smaller size\n",
+        a.pack.input, growth);
   }
   if (atlases.size() > 1) {
     for (std::size_t i = 0; i < atlases.size(); ++i) {
@@ -181,6 +191,9 @@ int run(const CLI::App& app, TransferArguments& a) {
   load_options.texcoord_set = pack.texcoord;
   const auto model = load_model(pack.input, load_options);
   if (!model) return report_error(model.error());
+  if (const Status ok = takes_textures(*model, pack.output); !ok) {
+    return report_error(ok.error());
+  }
   if (const Status ok = keep_input(pack, *model); !ok) return report_error(ok.error());
   const auto old = load_textures(*model);
   if (!old) return report_error(inside_input(pack, old.error()));
@@ -193,8 +206,10 @@ int run(const CLI::App& app, TransferArguments& a) {
   const std::vector<TextureSet> sets =
       texture_sets(model->mesh, model->face_material, *old, a.merge);
   if (sets.empty()) {
+    const bool has_uvs = !model->mesh.texcoords.empty();
     return report_error({ErrorKind::input, pack.input, "no face has a texture on these UVs",
-                         "use wrapatlas pack, or another --texcoord"});
+                         has_uvs ? "use wrapatlas pack, or another --texcoord"
+                                 : "it has no UVs: use wrapatlas unwrap"});
   }
   if (const Status ok = check_pictures(pack, *model, sets.size()); !ok)
     return report_error(ok.error());
@@ -239,13 +254,15 @@ Command make_transfer_command(CLI::App& parser) {
           "Where to write it, in the input's format. The pictures of an OBJ go beside it");
   app.get_option("--resolution")->default_str("");
   for (const char* option : kRefused) app.get_option(option)->group("");  // not in the help
-  app.footer(std::string(kPackExitStatus) +
-             "Without --resolution an atlas is the smallest at which no texture loses texels.\n"
-             "--time is for each atlas.\n"
-             "Examples:\n"
-             "  wrapatlas transfer prop.glb -o moved.glb --padding 8 --image atlas.png\n"
-             "  wrapatlas transfer scan.obj -o moved.obj --unwrap --resolution 4096\n"
-             "  wrapatlas transfer prop.glb -o moved.glb --merge --resolution 1024 --wrap none");
+  app.footer(
+      std::string(kPackExitStatus) +
+      "Without --resolution an atlas is about the smallest at which no texture loses texels; with\n"
+      "--unwrap, at which faces keep theirs in the mean.\n"
+      "--time is for each atlas.\n"
+      "Examples:\n"
+      "  wrapatlas transfer prop.glb -o moved.glb --padding 8 --image atlas.png\n"
+      "  wrapatlas transfer scan.obj -o moved.obj --unwrap --resolution 4096\n"
+      "  wrapatlas transfer prop.glb -o moved.glb --merge --resolution 1024 --wrap none");
   return {&app, [arguments, &app] { return run(app, *arguments); }};
 }
 

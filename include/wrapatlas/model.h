@@ -89,6 +89,10 @@ bool keeps_all(FileFormat output, FileFormat input);
 /// nothing half-written.
 Status save_model(const Model& model, const AtlasMesh& atlas, const std::filesystem::path& path);
 
+/// Whether save_model with textures can write to that path, which must be of the model's own
+/// format. Errors: usage.
+Status takes_textures(const Model& model, const std::filesystem::path& path);
+
 /// The same with other textures in the place of those that they were made from. `path` is of the
 /// model's own format. Errors: usage (another format, or one without textures), output.
 Status save_model(const Model& model, const AtlasMesh& atlas, const std::filesystem::path& path,

@@ -211,19 +211,30 @@ bool has_unknown_parts(const Json& json) {
   return false;
 }
 
-/// Textures that no material names any more keep their numbers, but let go of their pictures.
-void empty_unused_textures(Json& json, const std::set<std::uint64_t>& candidates,
-                           const GltfContents& contents) {
+/// Of the candidates, those that no material names any more; renumbers the others. Not where an
+/// unknown part of the file may name some.
+void drop_unused_textures(Json& json, const std::set<std::uint64_t>& candidates,
+                          const GltfContents& contents) {
   if (has_unknown_parts(json)) return;
+  std::vector<Json*> indices;
   std::set<std::uint64_t> used;
   for (const GltfTextureUse& use : texture_uses(contents)) {
     const auto now = integer_member(json[use.where], "index", 0);
-    if (now) used.insert(*now);
+    if (!now) continue;
+    indices.push_back(&json[use.where]["index"]);
+    used.insert(*now);
   }
-  for (const std::uint64_t texture : candidates) {
-    if (used.count(texture) != 0) continue;
-    json["textures"][texture].erase("source");
-    json["textures"][texture].erase("extensions");
+  Json& textures = json["textures"];
+  std::vector<std::uint64_t> number(textures.size());
+  Json kept = Json::array();
+  for (std::size_t t = 0; t < textures.size(); ++t) {
+    number[t] = kept.size();
+    if (candidates.count(t) == 0 || used.count(t) != 0) kept.push_back(std::move(textures[t]));
+  }
+  textures = std::move(kept);
+  for (Json* index : indices) {
+    const auto old = as_integer(*index);
+    if (old && *old < number.size()) *index = number[*old];
   }
 }
 
@@ -281,7 +292,7 @@ void replace_gltf_textures(const GltfContents& contents, std::span<const NewText
       if (set != 0) info["texCoord"] = set;
     }
   }
-  empty_unused_textures(edit.json, replaced, contents);
+  drop_unused_textures(edit.json, replaced, contents);
   drop_unused_images(edit.json);
   unlist_extension(edit.json, kTransform);
 }

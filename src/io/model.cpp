@@ -139,14 +139,17 @@ Result<ModelTextures> load_textures(const Model& model, bool base_colors_alone) 
   return Error{ErrorKind::usage, "", "this format has no textures", "export it as .glb"};
 }
 
-Status save_model(const Model& model, const AtlasMesh& atlas, const std::filesystem::path& path,
-                  std::span<const NewTexture> textures) {
+Status takes_textures(const Model& model, const std::filesystem::path& path) {
   const Result<FileFormat> format = format_from_path(path);
   if (!format) return format.error();
-  if (!model.source || !keeps_all(*format, model.format)) {
-    return Error{ErrorKind::usage, path.string(), "another format than the model's",
-                 "keep its ending: its materials would be lost"};
-  }
+  if (model.source && keeps_all(*format, model.format)) return Done{};
+  return Error{ErrorKind::usage, path.string(), "another format than the model's",
+               "keep its ending: its materials would be lost"};
+}
+
+Status save_model(const Model& model, const AtlasMesh& atlas, const std::filesystem::path& path,
+                  std::span<const NewTexture> textures) {
+  if (Status ok = takes_textures(model, path); !ok) return ok;
   if (Status fits = check_fit(model.mesh, atlas); !fits) return fits;
   OutputTransaction files;
   if (Status ok = model.source->save(path, model.mesh, atlas, textures); !ok) return ok;

@@ -114,7 +114,7 @@ class Simplify(support.CommandTest):
         self.write("a.obj", CUBE)
         done = self.succeed("simplify", "a.obj", "-o", "b.obj", "--faces", 8, "--keep-seams")
         self.assertIn("a.obj: note: --keep-seams keeps none", done.stderr)
-        self.assertIn("a.obj: note: its materials are not kept", done.stderr)
+        self.assertIn("a.obj: note: its materials, textures and normals are not kept", done.stderr)
         self.assertRegex(done.stderr, r"a\.obj: 8 of 12 triangles, volume .* -> b\.obj")
         self.assertEqual(counts(self.path("b.obj")), (6, 8))
         quiet = self.succeed("simplify", "a.obj", "-o", "b.obj", "--faces", 8, "--quiet")

@@ -149,6 +149,27 @@ class Transfer(support.CommandTest):
         self.assertEqual(metal["metallicRoughnessTexture"]["index"],
                          material["occlusionTexture"]["index"])
         self.assertEqual(len(gltf["images"]), 2)
+        self.assertEqual(len(gltf["textures"]), 2)
+
+    def test_what_stays_keeps_its_texture(self):
+        other = {"index": 1, "texCoord": 1}
+        maker = self.maker(occlusionTexture=other, emissiveTexture={"index": 0})
+        attributes = maker.json["meshes"][0]["primitives"][0]["attributes"]
+        attributes["TEXCOORD_1"] = attributes["TEXCOORD_0"]
+        maker.json["images"].append({"bufferView": maker.view(png(8, 8, smooth)),
+                                     "mimeType": "image/png"})
+        maker.json["textures"].append({"source": 1, "name": "stays"})
+        self.write("a.glb", maker.glb())
+        self.transfer("a.glb", "b.glb")
+        gltf, _ = parts(self.path("b.glb"))
+        material = gltf["materials"][0]
+        stays = gltf["textures"][material["occlusionTexture"]["index"]]
+        self.assertEqual(stays["name"], "stays")
+        self.assertEqual(material["occlusionTexture"]["texCoord"], 1)
+        moved = material["pbrMetallicRoughness"]["baseColorTexture"]["index"]
+        self.assertEqual(material["emissiveTexture"]["index"], moved)
+        self.assertEqual((len(gltf["textures"]), len(gltf["images"])), (2, 2))
+        self.assertNotEqual(gltf["textures"][moved]["source"], stays["source"])
 
     def two_materials(self, first=png(64, 64, smooth),
                       second=png(16, 16, lambda x, y: (200, 10, 10))):

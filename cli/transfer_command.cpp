@@ -192,7 +192,7 @@ int run(const CLI::App& app, TransferArguments& a) {
   const auto model = load_model(pack.input, load_options);
   if (!model) return report_error(model.error());
   if (const Status ok = takes_textures(*model, pack.output); !ok) {
-    return report_error(ok.error());
+    return report_error(ok.error().where.empty() ? inside_input(pack, ok.error()) : ok.error());
   }
   if (const Status ok = keep_input(pack, *model); !ok) return report_error(ok.error());
   const auto old = load_textures(*model);

@@ -211,30 +211,33 @@ bool has_unknown_parts(const Json& json) {
   return false;
 }
 
-/// Of the candidates, those that no material names any more; renumbers the others. Not where an
-/// unknown part of the file may name some.
-void drop_unused_textures(Json& json, const std::set<std::uint64_t>& candidates,
-                          const GltfContents& contents) {
-  if (has_unknown_parts(json)) return;
+/// Textures from `first_new` on take the places of candidates that no material names any more; what
+/// is left of those lets go of its picture. All others keep their numbers, as extensions that we do
+/// not know of may name them.
+void reuse_unused_textures(Json& json, const std::set<std::uint64_t>& candidates,
+                           std::size_t first_new, const GltfContents& contents) {
+  if (candidates.empty() || has_unknown_parts(json)) return;
   std::vector<Json*> indices;
-  std::set<std::uint64_t> used;
+  std::set<std::uint64_t> unused = candidates;
   for (const GltfTextureUse& use : texture_uses(contents)) {
     const auto now = integer_member(json[use.where], "index", 0);
     if (!now) continue;
     indices.push_back(&json[use.where]["index"]);
-    used.insert(*now);
+    unused.erase(*now);
   }
   Json& textures = json["textures"];
-  std::vector<std::uint64_t> number(textures.size());
-  Json kept = Json::array();
-  for (std::size_t t = 0; t < textures.size(); ++t) {
-    number[t] = kept.size();
-    if (candidates.count(t) == 0 || used.count(t) != 0) kept.push_back(std::move(textures[t]));
+  while (!unused.empty() && textures.size() > first_new) {
+    const std::uint64_t from = textures.size() - 1, to = *unused.begin();
+    unused.erase(unused.begin());
+    textures[to] = std::move(textures[from]);
+    textures.erase(from);
+    for (Json* index : indices) {
+      if (as_integer(*index) == from) *index = to;
+    }
   }
-  textures = std::move(kept);
-  for (Json* index : indices) {
-    const auto old = as_integer(*index);
-    if (old && *old < number.size()) *index = number[*old];
+  for (const std::uint64_t texture : unused) {
+    textures[texture].erase("source");
+    textures[texture].erase("extensions");
   }
 }
 
@@ -272,6 +275,7 @@ void replace_gltf_textures(const GltfContents& contents, std::span<const NewText
   const std::vector<GltfTextureUse> uses = uses_that_follow(contents);
   const int set = std::stoi(contents.texcoord_name.substr(std::string("TEXCOORD_").size()));
   std::set<std::uint64_t> replaced;
+  const std::size_t first_new = array_member(edit.json, "textures").size();
   for (const NewTexture& made : textures) {
     if (made.uses.empty()) continue;
     const GltfTextureUse& first = uses[made.uses.front()];
@@ -285,6 +289,9 @@ void replace_gltf_textures(const GltfContents& contents, std::span<const NewText
     for (const std::size_t use : made.uses) {
       replaced.insert(uses[use].texture);
       Json& info = edit.json[uses[use].where];
+      if (const auto clone = integer_member(info, "index", 0); clone && *clone < first_new) {
+        replaced.insert(*clone);  // as its sampler had to be another
+      }
       info["index"] = number;
       if (uses[use].transformed) remove_extension(info, kTransform);
       // A transform may have named the UV set in its place.
@@ -292,7 +299,7 @@ void replace_gltf_textures(const GltfContents& contents, std::span<const NewText
       if (set != 0) info["texCoord"] = set;
     }
   }
-  drop_unused_textures(edit.json, replaced, contents);
+  reuse_unused_textures(edit.json, replaced, first_new, contents);
   drop_unused_images(edit.json);
   unlist_extension(edit.json, kTransform);
 }

@@ -80,6 +80,10 @@ Status write_model(const Model& model, const AtlasMesh& atlas, const std::filesy
   return write_new(format, path, model.mesh, atlas);
 }
 
+Error no_textures() {
+  return {ErrorKind::usage, "", "this format has no textures", "export it as .glb"};
+}
+
 }  // namespace
 
 bool keeps_all(FileFormat output, FileFormat input) {
@@ -136,13 +140,17 @@ Status Model::Source::save(const std::filesystem::path& path, const Mesh&, const
 
 Result<ModelTextures> load_textures(const Model& model, bool base_colors_alone) {
   if (model.source) return model.source->textures(base_colors_alone);
-  return Error{ErrorKind::usage, "", "this format has no textures", "export it as .glb"};
+  return no_textures();
 }
 
 Status takes_textures(const Model& model, const std::filesystem::path& path) {
   const Result<FileFormat> format = format_from_path(path);
   if (!format) return format.error();
-  if (model.source && keeps_all(*format, model.format)) return Done{};
+  const bool has_textures =
+      model.source && (model.format == FileFormat::obj || model.format == FileFormat::gltf ||
+                       model.format == FileFormat::glb);
+  if (!has_textures) return no_textures();
+  if (keeps_all(*format, model.format)) return Done{};
   return Error{ErrorKind::usage, path.string(), "another format than the model's",
                "keep its ending: its materials would be lost"};
 }

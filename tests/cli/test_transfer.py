@@ -171,6 +171,27 @@ class Transfer(support.CommandTest):
         self.assertEqual((len(gltf["textures"]), len(gltf["images"])), (2, 2))
         self.assertNotEqual(gltf["textures"][moved]["source"], stays["source"])
 
+    def test_textures_that_stay_keep_their_numbers(self):
+        # An extension that is not looked into may name them.
+        maker = self.maker(extensions={"MOZ_lightmap": {"index": 1, "texCoord": 1}})
+        maker.json["extensionsUsed"] = ["MOZ_lightmap"]
+        maker.json["textures"].append({"source": 0, "name": "stays"})
+        self.write("a.glb", maker.glb())
+        self.transfer("a.glb", "b.glb")
+        gltf, _ = parts(self.path("b.glb"))
+        self.assertEqual([texture.get("name") for texture in gltf["textures"]], [None, "stays"])
+
+    def test_of_a_clamped_texture_no_clone_stays(self):
+        maker = self.maker(occlusionTexture={"index": 0, "texCoord": 1})
+        attributes = maker.json["meshes"][0]["primitives"][0]["attributes"]
+        attributes["TEXCOORD_1"] = attributes["TEXCOORD_0"]
+        maker.json["samplers"] = [{"wrapS": 33071, "wrapT": 33071}]
+        maker.json["textures"] = [{"source": 0, "sampler": 0}]
+        self.write("a.glb", maker.glb())
+        self.transfer("a.glb", "b.glb")
+        gltf, _ = parts(self.path("b.glb"))
+        self.assertEqual((len(gltf["textures"]), len(gltf["images"])), (2, 2))
+
     def two_materials(self, first=png(64, 64, smooth),
                       second=png(16, 16, lambda x, y: (200, 10, 10))):
         maker = self.maker(picture=first)
@@ -322,6 +343,8 @@ class Transfer(support.CommandTest):
         self.refuse(3, ("machine.obj", "no face has a texture"), "transfer", "machine.obj", "-o",
                     "b.obj")
         self.refuse(2, ("b.obj", "format"), "transfer", "a.glb", "-o", "b.obj")
+        self.write("c.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")
+        self.refuse(2, ("c.off", "no textures"), "transfer", "c.off", "-o", "b.obj")
         for options in (("--density", 5), ("--pages", 2), ("--udim",), ("--export", "cut"),
                         ("--aspect", "2:1"), ("--bits", 12)):
             with self.subTest(options=options):

@@ -49,9 +49,13 @@ Status resolve(const CLI::App& app, BakeArguments& a) {
     return std::find(a.maps.begin(), a.maps.end(), map) != a.maps.end();
   };
   const bool color = has(BakedMap::color), occlusion = has(BakedMap::occlusion);
+  const bool normals = has(BakedMap::object_normals) || has(BakedMap::tangent_normals);
   const Ignored ignored[] = {
       {"--high-texcoord", !color, "no colour is baked", "add --map color"},
       {"--color-from", !color, "no colour is baked", "add --map color"},
+      {"--no-fit", !normals, "no normals are baked", "leave it out"},
+      {"--no-fit", a.options.samples == 1, "with one sample there is nothing to fit",
+       "leave it out"},
       {"--occlusion-rays", !occlusion, "no occlusion is baked", "add --map occlusion"},
       {"--occlusion-distance", !occlusion, "no occlusion is baked", "add --map occlusion"},
   };
@@ -59,6 +63,7 @@ Status resolve(const CLI::App& app, BakeArguments& a) {
   constexpr double kDegree = std::numbers::pi / 180;
   if (a.hard_edges) a.options.hard_angle = *a.hard_edges * kDegree;
   if (a.high_hard_edges) a.options.high_hard_angle = *a.high_hard_edges * kDegree;
+  a.options.fit = !a.no_fit;
   a.options.width = a.resolution.width;
   a.options.height = a.resolution.height;
   a.options.threads = threads_for(a.options.threads);
@@ -239,7 +244,10 @@ Command make_bake_command(CLI::App& parser) {
              "Axes on which the atlas repeats, as it was packed");
   add_bits(app, a.bits);
   add_number(app, "--samples", a.options.samples, {1, 16},
-             "A texel is the mean of so many, squared");
+             "What a texel looks at: so many places, squared");
+  app.add_flag("--no-fit", a.no_fit,
+               "Texels of normals are the mean of their samples, as all others are; else what "
+               "comes nearest to all samples when it is filtered");
   add_bleed(app, a.options.bleed);
   add_number(app, "--distance", a.options.distance, {0, 1e30},
              "How far from the low model the high one is looked for, along the normal and back, in "

@@ -19,7 +19,7 @@ struct BakeArguments {
   Resolution resolution;
   std::optional<double> hard_edges, high_hard_edges;  ///< degrees
   int bits = 8, texcoord = 0, high_texcoord = 0;
-  bool mips = false, quiet = false;
+  bool mips = false, no_fit = false, quiet = false;
   BakeOptions options;
   std::vector<BakedMap> maps;
   std::vector<OutputPath> outputs;  ///< of the maps, in their order

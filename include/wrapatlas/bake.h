@@ -28,7 +28,9 @@ struct BakeOptions {
   Wrap wrap = Wrap::uv;             ///< axes on which the atlas repeats; elsewhere what is outside
                                     ///< [0, 1] is not baked
   bool v_points_down = false;       ///< of the low mesh's UVs, as Model has it
-  int samples = 2;                  ///< a texel is the mean of so many, squared; 1 to 16
+  int samples = 2;                  ///< of a texel, squared; 1 to 16
+  bool fit = true;  ///< texels are those that, filtered, come nearest to the samples; else each is
+                    ///< the mean of its own
   /// Texels by which charts go on over their borders, along the low mesh's surface unfolded, for
   /// mip levels to see; all beyond is dilated.
   double bleed = kDefaultBleed;

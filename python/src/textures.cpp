@@ -86,6 +86,7 @@ void bind_bake(nb::module_& module) {
   number("height", [](BakeOptions & o) -> auto& { return o.height; },
          {1, double{kMostTexels}, "texels"});
   number("samples", [](BakeOptions & o) -> auto& { return o.samples; }, {1, 16});
+  options.def_rw("fit", &BakeOptions::fit);
   number("bleed", [](BakeOptions & o) -> auto& { return o.bleed; },
          {0, double{kMostTexels}, "texels"});
   number("distance", [](BakeOptions & o) -> auto& { return o.distance; }, {0, 1e30});

@@ -44,6 +44,11 @@ class Bake(unittest.TestCase):
             again = wrapatlas.load_image(folder + "/n.png")
             np.testing.assert_allclose(again, baking.image, atol=1 / 65535)
 
+    def test_means_of_samples_without_fit(self):
+        fitted, means = (wrapatlas.bake(self.low, self.high, "object", resolution=64, fit=fit).image
+                         for fit in (True, False))
+        self.assertFalse(np.array_equal(fitted, means))
+
     def test_a_normal_map_makes_it_look_like_the_original(self):
         map = wrapatlas.bake(self.low, self.high, resolution=256).image
         view = {"size": 128, "views": 2, "framed_as": self.high}

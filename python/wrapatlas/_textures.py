@@ -68,6 +68,7 @@ def bake(
     resolution: int | tuple[int, int] | str | None = None,
     wrap: Wrap | None = None,
     samples: int = 2,
+    fit: bool = True,
     bleed: float = 32,
     distance: float = 0,
     hard_edges: float | None = None,
@@ -86,7 +87,8 @@ def bake(
         (normals along the axes), "position", "occlusion", "color" (of color_from).
     resolution: texels: N, (W, H) or "WxH". wrap: axes on which the atlas repeats. If low is a
         Packing both are as it was packed, if they are not given; else 1024 and "uv".
-    samples: a texel is the mean of so many, squared.
+    samples: what a texel looks at: so many places, squared. It is their mean; texels of normals
+        are, with fit, what comes nearest to all samples when it is filtered.
     bleed: texels by which charts go on over their borders, along the surface, for mip levels to
         see; beyond, the nearest texel is repeated.
     distance: how far from the low mesh the high one is looked for, in their units; 0: twice the
@@ -107,6 +109,7 @@ def bake(
         {
             "wrap": known.wrap if wrap is None else wrap,
             "samples": samples,
+            "fit": bool(fit),
             "bleed": bleed,
             "distance": distance,
             "hard_edges": hard_edges,

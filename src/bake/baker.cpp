@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mesh/polygon_plane.h"
+#include "texture/directions.h"
 #include "threads/parallel.h"
 
 namespace wrapatlas {
@@ -28,9 +30,29 @@ Vec3 in_frame(const Vec3& n, const LowPoint& frame) {
   return (1 / volume) * Vec3{dot(n, cross(b, up)), dot(n, cross(up, t)), dot(n, cross(t, b))};
 }
 
+bool is_direction(BakedMap map) {
+  return map == BakedMap::object_normals || map == BakedMap::tangent_normals;
+}
+
+std::array<double, kMostChannels> encoded(const Vec3& n) {
+  const Vec3 direction = unit(n);
+  return {0.5 + 0.5 * direction.x, 0.5 + 0.5 * direction.y, 0.5 + 0.5 * direction.z, 0};
+}
+
 }  // namespace
 
-Baker::Baker(const BakeScene& scene) : scene_(scene), reached_(scene.result.inside.size(), 0) {}
+Baker::Baker(const BakeScene& scene) : scene_(scene), reached_(scene.result.inside.size(), 0) {
+  std::size_t first_value = 0;
+  for (std::size_t m = 0; m < scene.maps.size(); ++m) {
+    if (is_direction(scene.maps[m])) directions_.push_back({m, first_value});
+    first_value += static_cast<std::size_t>(scene.result.maps[m].channels);
+  }
+  const BakeOptions& o = scene.options;
+  if (o.fit && o.samples > 1 && !directions_.empty()) {
+    fit_.emplace(o.width, o.height, o.wrap, o.samples, scene.samples.rows_per_band(),
+                 directions_.size());
+  }
+}
 
 bool Baker::run(int threads) {
   parallel_for(scene_.samples.band_count(), threads, [&](std::size_t band) {
@@ -38,11 +60,11 @@ bool Baker::run(int threads) {
     bake_band(band);
     report(++done_);
   });
-  if (stopped_) return false;
+  if (stopped_ || !finish_directions(threads)) return false;
   const auto bake_beyond = [&](std::size_t texel, const BeyondBorder& place) {
-    Sums sums{};
-    add_sample(scene_.low.beyond(place), 256 * texel, sums);
-    write(texel, sums, 1);
+    Values values{};
+    look(scene_.low.beyond(place), 256 * texel, values);
+    write(texel, values, 1);
   };
   scene_.bleed.for_each(reached_, threads, bake_beyond, [&] {
     report(++done_);
@@ -52,6 +74,21 @@ bool Baker::run(int threads) {
   scene_.result.texels_nearest = nearest_;
   scene_.result.met = met_;
   return !stopped_;
+}
+
+bool Baker::finish_directions(int threads) {
+  const auto go_on = [&] {
+    report(done_);
+    return !stopped_;
+  };
+  if (fit_) fit_->join_bands();
+  for (std::size_t i = 0; i < directions_.size(); ++i) {
+    Texture& map = scene_.result.maps[directions_[i].map];
+    if (fit_ && !fit_->improve(i, map, reached_, threads, go_on)) return false;
+    make_unit(map, threads);
+  }
+  fit_.reset();
+  return true;
 }
 
 void Baker::bake_band(std::size_t band) {
@@ -81,20 +118,25 @@ void Baker::bake_texel(const std::vector<TexelSample>& samples, std::size_t band
   const auto y = static_cast<std::size_t>(scene_.samples.rows_per_band()) * band +
                  static_cast<std::size_t>(row);
   const std::size_t texel = y * width + static_cast<std::size_t>(x);
-  Sums sums{};
+  Values sum{};
   int count = 0;
   bool missed = false, met = false;
   for (std::size_t i = 0; i < across * across; ++i) {
     const TexelSample& one = sample(i);
-    if (one.triangle == kNone || scene_.samples.chart(one.triangle) != chart) continue;
+    const bool is_own = one.triangle != kNone && scene_.samples.chart(one.triangle) == chart;
+    if (!is_own && !(fit_ && one.is_on())) continue;
+    Values seen{};
     const LowPoint from = scene_.low.at(one, scene_.samples.corners(one.triangle));
-    const bool hit = add_sample(from, texel * 256 + i, sums);
+    const bool hit = look(from, texel * 256 + i, seen);
+    if (fit_ && one.is_on()) fit_->add(band, row, x, i, directions_of(seen));
+    if (!is_own) continue;
+    for (std::size_t c = 0; c < seen.size(); ++c) sum[c] += seen[c];
     missed |= !hit && one.is_on();
     met |= hit;
     ++count;
   }
   if (met && !met_.load(std::memory_order_relaxed)) met_ = true;
-  write(texel, sums, count);
+  write(texel, sum, count);
   if (best.is_on()) {
     scene_.result.inside[texel] = 1;
     ++used_;
@@ -106,12 +148,22 @@ void Baker::bake_texel(const std::vector<TexelSample>& samples, std::size_t band
   }
 }
 
-// false: no ray met the high mesh.
-bool Baker::add_sample(const LowPoint& from, std::size_t number, Sums& sums) const {
+std::array<float, Baker::kMostDirections> Baker::directions_of(const Values& values) const {
+  std::array<float, kMostDirections> found{};
+  for (std::size_t i = 0; i < directions_.size(); ++i) {
+    std::copy_n(values.begin() + directions_[i].first_value, TexelFit::kChannels,
+                found.begin() + TexelFit::kChannels * i);
+  }
+  return found;
+}
+
+bool Baker::look(const LowPoint& from, std::size_t number, Values& values) const {
   const HighPoint at = scene_.high.find(from.position, from.normal, scene_.result.distance);
+  std::size_t next = 0;
   for (std::size_t m = 0; m < scene_.maps.size(); ++m) {
     const std::array<double, kMostChannels> value = value_of(scene_.maps[m], from, at, number);
-    for (std::size_t c = 0; c < kMostChannels; ++c) sums[m][c] += value[c];
+    const auto channels = static_cast<std::size_t>(scene_.result.maps[m].channels);
+    for (std::size_t c = 0; c < channels; ++c) values[next++] = static_cast<float>(value[c]);
   }
   return at.by_ray;
 }
@@ -119,14 +171,15 @@ bool Baker::add_sample(const LowPoint& from, std::size_t number, Sums& sums) con
 std::array<double, kMostChannels> Baker::value_of(BakedMap map, const LowPoint& from,
                                                   const HighPoint& at, std::size_t number) const {
   const HighSurface& high = scene_.high;
-  const auto of = [](const Vec3& v) { return std::array<double, kMostChannels>{v.x, v.y, v.z, 0}; };
   switch (map) {
     case BakedMap::object_normals:
-      return of(high.normal(at));
+      return encoded(high.normal(at));
     case BakedMap::tangent_normals:
-      return of(in_frame(high.normal(at), from));
-    case BakedMap::positions:
-      return of((1 / scene_.result.extent) * (high.position(at) - scene_.result.low_corner));
+      return encoded(in_frame(high.normal(at), from));
+    case BakedMap::positions: {
+      const Vec3 p = (1 / scene_.result.extent) * (high.position(at) - scene_.result.low_corner);
+      return {p.x, p.y, p.z, 0};
+    }
     case BakedMap::occlusion:
       return {high.openness(at, scene_.options.occlusion_rays, scene_.options.occlusion_distance,
                             scattered(number)),
@@ -138,20 +191,12 @@ std::array<double, kMostChannels> Baker::value_of(BakedMap map, const LowPoint& 
   return {color[0], color[1], color[2], color[3]};
 }
 
-void Baker::write(std::size_t texel, const Sums& sums, int count) {
+void Baker::write(std::size_t texel, const Values& sum, int count) {
   reached_[texel] = 1;
-  for (std::size_t m = 0; m < scene_.maps.size(); ++m) {
-    const BakedMap map = scene_.maps[m];
-    const std::array<double, kMostChannels>& sum = sums[m];
-    Texture& texture = scene_.result.maps[m];
-    const auto channels = static_cast<std::size_t>(texture.channels);
-    float* value = texture.values.data() + texel * channels;
-    const bool directions = map == BakedMap::object_normals || map == BakedMap::tangent_normals;
-    const double size = std::sqrt(sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2]);
-    for (std::size_t c = 0; c < channels; ++c) {
-      const double direction = size > 0 ? sum[c] / size : c == 2;
-      value[c] = static_cast<float>(directions ? 0.5 + 0.5 * direction : sum[c] / count);
-    }
+  const float* next = sum.data();
+  for (Texture& map : scene_.result.maps) {
+    float* value = map.values.data() + texel * static_cast<std::size_t>(map.channels);
+    for (int c = 0; c < map.channels; ++c) *value++ = *next++ / static_cast<float>(count);
   }
 }
 

@@ -1,7 +1,6 @@
 #include <algorithm>
-#include <cmath>
 
-#include "wrapatlas/texture.h"
+#include "texture/directions.h"
 
 namespace wrapatlas {
 namespace {
@@ -26,22 +25,6 @@ std::vector<Cover> covers(int from, int to) {
     }
   }
   return result;
-}
-
-void make_unit(Texture& texture) {
-  for (std::size_t t = 0; t < texture.texel_count(); ++t) {
-    float* value = texture.values.data() + t * static_cast<std::size_t>(texture.channels);
-    std::array<double, 3> n{};
-    double size2 = 0;
-    for (std::size_t i = 0; i < 3; ++i) {
-      n[i] = 2.0 * double(value[i]) - 1;
-      size2 += n[i] * n[i];
-    }
-    if (size2 < 1e-12) continue;  // opposite directions: none
-    for (std::size_t i = 0; i < 3; ++i) {
-      value[i] = static_cast<float>(0.5 + 0.5 * n[i] / std::sqrt(size2));
-    }
-  }
 }
 
 /// The mean of the texels covered. No filter reaches farther, so none crosses the border.

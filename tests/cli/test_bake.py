@@ -87,6 +87,13 @@ class Bake(support.CommandTest):
         for value, expected in zip(values, (0.2, 0.5, 0.9)):
             self.assertAlmostEqual(value / 65535, expected, delta=1e-4)
 
+    def test_fit(self):
+        self.assertIs(self.bake("--resolution", 8)["fit"], True)
+        self.assertIs(self.bake("--resolution", 8, "--no-fit")["fit"], False)
+        same = ("bake", "low.obj", "high.obj", "-o", "n.png", "--no-fit")
+        self.refuse(2, ("--no-fit", "no normals"), *same, "--map", "position")
+        self.refuse(2, ("--no-fit", "one sample"), *same, "--samples", "1")
+
     def test_several_maps_in_one_run(self):
         report = self.bake("--resolution", 8, "--also", "occlusion=ao.png", "--also",
                            "position=p.png")

@@ -132,6 +132,47 @@ TEST(Bake, ABallOnACoarseOne) {
   }
 }
 
+/// Radians between what is read from the map and the mesh's own smooth normals; the mean over
+/// places all over its faces.
+double mean_error(const Mesh& mesh, const Texture& map) {
+  const std::vector<Vec3> normals = smooth_normals(mesh);
+  double sum = 0;
+  int count = 0;
+  for (std::size_t c = 0; c < mesh.corner_count(); c += 3) {
+    for (int i = 1; i < 8; ++i) {
+      for (int j = 1; i + j < 8; ++j) {
+        const std::array<double, 3> weights{i / 8.0, j / 8.0, (8 - i - j) / 8.0};
+        Vec2 uv;
+        Vec3 normal;
+        for (std::size_t k = 0; k < 3; ++k) {
+          uv = uv + weights[k] * mesh.texcoords[mesh.corner_texcoord[c + k]];
+          normal = normal + weights[k] * normals[c + k];
+        }
+        const TextureValue read = sample_bilinear(map, {uv.x, 1 - uv.y}, Wrap::uv);
+        const Vec3 n{2.0 * double(read[0]) - 1, 2.0 * double(read[1]) - 1,
+                     2.0 * double(read[2]) - 1};
+        sum += std::atan2(length(cross(n, normal)), dot(n, normal));
+        ++count;
+      }
+    }
+  }
+  return sum / count;
+}
+
+TEST(Bake, FittedNormalsAreNearerWhenFiltered) {
+  Mesh waves = mapped_sheet(40);
+  for (Vec3& p : waves.positions) p.z = 0.02 * std::sin(23 * p.x) * std::cos(19 * p.y);
+  for (Vec2& uv : waves.texcoords) uv = 0.8 * uv + Vec2{0.17, 0.53};  // over the atlas's border
+  const BakedMap maps[] = {BakedMap::positions, BakedMap::object_normals};
+  BakeOptions options = small(40);
+  const auto fitted = bake(waves, source_of(waves), maps, options);
+  options.fit = false;
+  const auto means = bake(waves, source_of(waves), maps, options);
+  ASSERT_TRUE(fitted && means);
+  EXPECT_LT(mean_error(waves, fitted->maps[1]), 0.6 * mean_error(waves, means->maps[1]));
+  EXPECT_EQ(fitted->maps[0].values, means->maps[0].values);  // directions alone are fitted
+}
+
 TEST(Bake, TangentSpaceLeadsBackToTheNormal) {
   // A flat square, turned in UV; above it a plane that is tilted.
   Mesh low = mapped_sheet(1);
@@ -310,14 +351,15 @@ TEST(Bake, ColourOfTheHighMesh) {
 
 TEST(Bake, ThreadsDoNotMatter) {
   const Mesh low = mapped_ball(), high = test::ball(40, 1.1);
-  const BakedMap maps[] = {BakedMap::object_normals, BakedMap::occlusion};
+  const BakedMap maps[] = {BakedMap::object_normals, BakedMap::occlusion,
+                           BakedMap::tangent_normals};
   BakeOptions options = small(64);
   options.threads = 1;
   const auto one = bake(low, source_of(high), maps, options);
   options.threads = 4;
   const auto four = bake(low, source_of(high), maps, options);
   ASSERT_TRUE(one && four);
-  for (const std::size_t map : {0, 1}) EXPECT_EQ(one->maps[map].values, four->maps[map].values);
+  for (const std::size_t map : {0, 1, 2}) EXPECT_EQ(one->maps[map].values, four->maps[map].values);
   EXPECT_EQ(one->texels_used, four->texels_used);
 }
 

@@ -7,9 +7,11 @@
 namespace wrapatlas {
 namespace {
 
-// Chebyshev's method, for equations divided by their diagonals. No eigenvalue is above 4, as four
-// texels are read at a time; inside charts none is below 1/4.
-constexpr double kLeastEigenvalue = 0.25, kMostEigenvalue = 4;
+// Chebyshev's method, for equations divided by their diagonals. Of those of the samples alone no
+// eigenvalue is above 4, as four texels are read at a time, and none below 0; held by a share of
+// the diagonal, the bounds are:
+constexpr double kLeastEigenvalue = TexelFit::kHold / (1 + TexelFit::kHold);
+constexpr double kMostEigenvalue = (4 + TexelFit::kHold) / (1 + TexelFit::kHold);
 constexpr int kSteps = 8;
 
 /// Of the texels left and right of a place on an axis: the first, and the share of the second.
@@ -22,7 +24,8 @@ Between between(int texel, std::size_t sample, std::size_t across, int texels, b
   const double off_centre = (double(sample) + 0.5) / double(across) - 0.5;
   const Between place =
       off_centre < 0 ? Between{texel - 1, off_centre + 1} : Between{texel, off_centre};
-  if (wraps || (place.first >= 0 && place.first + 1 < texels)) return place;
+  const bool is_between = place.first >= 0 && place.first + 1 < texels;
+  if (is_between || (wraps && texels > 1)) return place;
   return {std::max(place.first, 0), 0};  // the outermost texel goes on
 }
 
@@ -32,7 +35,7 @@ Between between(int texel, std::size_t sample, std::size_t across, int texels, b
 struct TexelFit::Step {
   std::vector<float>& all;  ///< per texel and channel of the map
   std::size_t first_channel;
-  float hold, keep, scale;
+  float keep, scale;
 };
 
 TexelFit::TexelFit(int width, int height, Wrap wrap, int across, int rows_per_band,
@@ -97,14 +100,15 @@ void TexelFit::join_bands() {
 
 bool TexelFit::improve(std::size_t number, Texture& map, const TexelMask& mask, int threads,
                        const std::function<bool()>& go_on) {
-  const auto hold = static_cast<float>(kHold * double(across_ * across_));
   const auto for_rows = [&](auto job) {
     parallel_for(static_cast<std::size_t>(height_), threads,
                  [&](std::size_t y) { job(static_cast<int>(y)); });
   };
   for_rows([&](int y) {
     for (std::size_t x = 0; x < width_; ++x) {
-      float* seen = seen_.data() + (row_of(y) * width_ + x) * channels_ + kChannels * number;
+      const std::size_t texel = row_of(y) * width_ + x;
+      const float hold = held(products_[texel]);
+      float* seen = seen_.data() + texel * channels_ + kChannels * number;
       const float* value = map.at(static_cast<int>(x), y);
       for (std::size_t c = 0; c < kChannels; ++c) seen[c] += hold * value[c];
     }
@@ -115,8 +119,7 @@ bool TexelFit::improve(std::size_t number, Texture& map, const TexelMask& mask, 
   double ratio = kHalf / kMiddle, keep = 0, scale = 1 / kMiddle;
   for (int i = 0; i < kSteps; ++i) {
     if (!go_on()) return false;
-    const Step step{steps, kChannels * number, hold, static_cast<float>(keep),
-                    static_cast<float>(scale)};
+    const Step step{steps, kChannels * number, static_cast<float>(keep), static_cast<float>(scale)};
     for_rows([&](int y) { find_steps(map, mask, y, step); });
     for_rows([&](int y) {
       const std::size_t begin = static_cast<std::size_t>(y) * width_ * kChannels;
@@ -143,7 +146,7 @@ void TexelFit::find_steps(const Texture& map, const TexelMask& mask, int y,
     if (mask[first + x] == 0) continue;
     const std::size_t w = x == 0 ? width_ - 1 : x - 1, e = after(x);
     const Products& own = products[x];
-    const float diagonal = own[self] + step.hold;
+    const float diagonal = own[self] + held(own);
     for (std::size_t c = 0; c < kChannels; ++c) {
       const auto at = [&](const float* row, std::size_t column) {
         return row[column * kChannels + c];

@@ -16,9 +16,11 @@ class TexelFit {
  public:
   static constexpr std::size_t kChannels = 3;  ///< of a map
 
-  /// How much a texel is held where it was, beside all its own samples. Without, those at borders
-  /// that hardly any sample reads would go anywhere; with much, nothing is gained.
-  static constexpr double kHold = 1.0 / 32;
+  /// How much a texel is held where it was: this share of how much it is read, so that no texel is
+  /// drawn far from its mean for a little less error around it,
+  static constexpr double kHold = 1.0 / 4;
+  /// and this share of how much it can be read, for those at borders that hardly any sample reads.
+  static constexpr double kHoldUnread = 1.0 / 512;
 
   /// `across`: samples of a texel, along each axis.
   TexelFit(int width, int height, Wrap wrap, int across, int rows_per_band, std::size_t maps);
@@ -50,6 +52,10 @@ class TexelFit {
     return row_of(static_cast<std::size_t>(y / rows_per_band_), y % rows_per_band_);
   }
   [[nodiscard]] std::size_t after(std::size_t x) const { return x + 1 == width_ ? 0 : x + 1; }
+  [[nodiscard]] float held(const Products& own) const {
+    return static_cast<float>(kHold) * own[self] +
+           static_cast<float>(kHoldUnread * double(across_ * across_));
+  }
   void add_row(std::size_t from, std::size_t to);
   struct Step;
   /// Of one row of a map: the steps by what is left of the equations.

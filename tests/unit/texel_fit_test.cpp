@@ -78,10 +78,8 @@ std::vector<double> solve(std::vector<std::vector<double>> a, std::vector<double
 std::vector<double> best_texels(const std::vector<Seen>& samples, const Case& c,
                                 std::size_t channel, double start) {
   const auto n = static_cast<std::size_t>(c.width * c.height);
-  const double hold = TexelFit::kHold * c.across * c.across;
   std::vector<std::vector<double>> a(n, std::vector<double>(n));
-  std::vector<double> b(n, hold * start);
-  for (std::size_t i = 0; i < n; ++i) a[i][i] = hold;
+  std::vector<double> b(n);
   for (const Seen& seen : samples) {
     const std::vector<double> weights = weights_of(seen, c);
     for (std::size_t i = 0; i < n; ++i) {
@@ -89,6 +87,11 @@ std::vector<double> best_texels(const std::vector<Seen>& samples, const Case& c,
       b[i] += weights[i] * double(seen.value[channel]);
       for (std::size_t j = 0; j < n; ++j) a[i][j] += weights[i] * weights[j];
     }
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    const double hold = TexelFit::kHold * a[i][i] + TexelFit::kHoldUnread * c.across * c.across;
+    a[i][i] += hold;
+    b[i] += hold * start;
   }
   return solve(std::move(a), std::move(b));
 }

@@ -1,6 +1,6 @@
 // The texels that, filtered as graphics cards do it, come nearest to what was seen on the surface:
-// least squares over all samples that lie on charts. Directions alone: where colours end at an
-// edge, it would draw a rim around it.
+// least squares over all samples that lie on charts. For directions alone: where a value jumps,
+// they overshoot.
 #pragma once
 
 #include <array>

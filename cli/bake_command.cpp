@@ -49,7 +49,7 @@ Status resolve(const CLI::App& app, BakeArguments& a) {
     return std::find(a.maps.begin(), a.maps.end(), map) != a.maps.end();
   };
   const bool color = has(BakedMap::color), occlusion = has(BakedMap::occlusion);
-  const bool normals = has(BakedMap::object_normals) || has(BakedMap::tangent_normals);
+  const bool normals = std::any_of(a.maps.begin(), a.maps.end(), is_direction);
   const Ignored ignored[] = {
       {"--high-texcoord", !color, "no colour is baked", "add --map color"},
       {"--color-from", !color, "no colour is baked", "add --map color"},

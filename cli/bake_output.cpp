@@ -12,10 +12,10 @@ std::string level_path(const std::string& path, std::size_t level) {
 
 Status save_map(const BakeArguments& a, std::size_t number, Texture& texture) {
   const BakedMap map = a.maps[number];
-  const bool directions = map == BakedMap::object_normals || map == BakedMap::tangent_normals;
   MipMaps maps;
   if (a.mips) {
-    maps = make_mip_maps(std::move(texture), directions ? MipFilter::normals : MipFilter::mean);
+    maps =
+        make_mip_maps(std::move(texture), is_direction(map) ? MipFilter::normals : MipFilter::mean);
   } else {
     maps.levels.push_back(std::move(texture));
   }
@@ -29,6 +29,8 @@ Status save_map(const BakeArguments& a, std::size_t number, Texture& texture) {
 }
 
 Json report_of(const BakeArguments& a, const BakeResult& result, double seconds, double baking) {
+  const bool is_fitted = a.options.fit && a.options.samples > 1 &&
+                         std::any_of(a.maps.begin(), a.maps.end(), is_direction);
   Json maps = Json::array();
   for (std::size_t i = 0; i < a.maps.size(); ++i) {
     maps.push_back({{"kind", name_of(kBakedMaps, a.maps[i])}, {"file", a.outputs[i].path}});
@@ -42,7 +44,7 @@ Json report_of(const BakeArguments& a, const BakeResult& result, double seconds,
           {"height", a.options.height},
           {"wrap", name_of(kWraps, a.options.wrap)},
           {"samples", a.options.samples},
-          {"fit", a.options.fit},
+          {"fit", is_fitted},
           {"bleed", a.options.bleed},
           {"bits", a.bits},
           {"distance", result.distance},

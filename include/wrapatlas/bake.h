@@ -23,14 +23,20 @@ enum class BakedMap {
   color,            ///< of the BakeSource, averaged as it is
 };
 
+/// Whether a map's values are vectors of length 1.
+constexpr bool is_direction(BakedMap map) {
+  return map == BakedMap::object_normals || map == BakedMap::tangent_normals;
+}
+
 struct BakeOptions {
   int width = 1024, height = 1024;  ///< texels, 1 to 65536
   Wrap wrap = Wrap::uv;             ///< axes on which the atlas repeats; elsewhere what is outside
                                     ///< [0, 1] is not baked
   bool v_points_down = false;       ///< of the low mesh's UVs, as Model has it
   int samples = 2;                  ///< of a texel, squared; 1 to 16
-  bool fit = true;  ///< texels are those that, filtered, come nearest to the samples; else each is
-                    ///< the mean of its own
+  bool fit = true;  ///< texels of normals, if samples > 1, are those that come nearest to all
+                    ///< samples when filtered, for some 60 more bytes a texel and map of normals;
+                    ///< else each is the mean of its own, as those of all other maps are
   /// Texels by which charts go on over their borders, along the low mesh's surface unfolded, for
   /// mip levels to see; all beyond is dilated.
   double bleed = kDefaultBleed;

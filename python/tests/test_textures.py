@@ -48,6 +48,7 @@ class Bake(unittest.TestCase):
         fitted, means = (wrapatlas.bake(self.low, self.high, "object", resolution=64, fit=fit).image
                          for fit in (True, False))
         self.assertFalse(np.array_equal(fitted, means))
+        self.assertLess(abs(fitted - means).mean(), 0.02)
 
     def test_a_normal_map_makes_it_look_like_the_original(self):
         map = wrapatlas.bake(self.low, self.high, resolution=256).image

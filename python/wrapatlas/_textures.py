@@ -87,8 +87,9 @@ def bake(
         (normals along the axes), "position", "occlusion", "color" (of color_from).
     resolution: texels: N, (W, H) or "WxH". wrap: axes on which the atlas repeats. If low is a
         Packing both are as it was packed, if they are not given; else 1024 and "uv".
-    samples: what a texel looks at: so many places, squared. It is their mean; texels of normals
-        are, with fit, what comes nearest to all samples when it is filtered.
+    samples: a texel looks at so many places, squared, and is the mean of what is seen there.
+    fit: texels of normals, if samples > 1, come as near as they can to all samples when they are
+        filtered, instead of being means.
     bleed: texels by which charts go on over their borders, along the surface, for mip levels to
         see; beyond, the nearest texel is repeated.
     distance: how far from the low mesh the high one is looked for, in their units; 0: twice the

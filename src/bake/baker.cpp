@@ -30,14 +30,7 @@ Vec3 in_frame(const Vec3& n, const LowPoint& frame) {
   return (1 / volume) * Vec3{dot(n, cross(b, up)), dot(n, cross(up, t)), dot(n, cross(t, b))};
 }
 
-bool is_direction(BakedMap map) {
-  return map == BakedMap::object_normals || map == BakedMap::tangent_normals;
-}
-
-std::array<double, kMostChannels> encoded(const Vec3& n) {
-  const Vec3 direction = unit(n);
-  return {0.5 + 0.5 * direction.x, 0.5 + 0.5 * direction.y, 0.5 + 0.5 * direction.z, 0};
-}
+std::array<double, kMostChannels> values_of(const Vec3& v) { return {v.x, v.y, v.z, 0}; }
 
 }  // namespace
 
@@ -48,46 +41,50 @@ Baker::Baker(const BakeScene& scene) : scene_(scene), reached_(scene.result.insi
     first_value += static_cast<std::size_t>(scene.result.maps[m].channels);
   }
   const BakeOptions& o = scene.options;
-  if (o.fit && o.samples > 1 && !directions_.empty()) {
-    fit_.emplace(o.width, o.height, o.wrap, o.samples, scene.samples.rows_per_band(),
-                 directions_.size());
-  }
+  if (!o.fit || o.samples == 1 || directions_.empty()) return;
+  constexpr int kLeastRows = 16;  // of a band of the fit, which has two more
+  const int rows = scene.samples.rows_per_band();
+  bands_per_job_ = (kLeastRows + rows - 1) / rows;
+  fit_.emplace(o.width, o.height, o.wrap, o.samples, bands_per_job_ * rows, directions_.size());
 }
 
 bool Baker::run(int threads) {
-  parallel_for(scene_.samples.band_count(), threads, [&](std::size_t band) {
-    if (stopped_) return;
-    bake_band(band);
-    report(++done_);
+  const std::size_t bands = scene_.samples.band_count();
+  const auto per_job = static_cast<std::size_t>(bands_per_job_);
+  parallel_for((bands + per_job - 1) / per_job, threads, [&](std::size_t job) {
+    for (std::size_t band = job * per_job; band < std::min((job + 1) * per_job, bands); ++band) {
+      if (stopped_) return;
+      bake_band(band);
+      report();
+    }
   });
-  if (stopped_ || !finish_directions(threads)) return false;
+  if (stopped_) return false;
   const auto bake_beyond = [&](std::size_t texel, const BeyondBorder& place) {
     Values values{};
     look(scene_.low.beyond(place), 256 * texel, values);
     write(texel, values, 1);
   };
   scene_.bleed.for_each(reached_, threads, bake_beyond, [&] {
-    report(++done_);
+    report();
     return !stopped_;
   });
   scene_.result.texels_used = used_;
   scene_.result.texels_nearest = nearest_;
   scene_.result.met = met_;
-  return !stopped_;
+  return !stopped_ && finish_directions(threads);
 }
 
 bool Baker::finish_directions(int threads) {
   const auto go_on = [&] {
-    report(done_);
+    report();
     return !stopped_;
   };
   if (fit_) fit_->join_bands();
   for (std::size_t i = 0; i < directions_.size(); ++i) {
     Texture& map = scene_.result.maps[directions_[i].map];
     if (fit_ && !fit_->improve(i, map, reached_, threads, go_on)) return false;
-    make_unit(map, threads);
+    encode_directions(map, threads);
   }
-  fit_.reset();
   return true;
 }
 
@@ -124,11 +121,12 @@ void Baker::bake_texel(const std::vector<TexelSample>& samples, std::size_t band
   for (std::size_t i = 0; i < across * across; ++i) {
     const TexelSample& one = sample(i);
     const bool is_own = one.triangle != kNone && scene_.samples.chart(one.triangle) == chart;
-    if (!is_own && !(fit_ && one.is_on())) continue;
+    const bool is_fitted = fit_ && one.is_on();
+    if (!is_own && !is_fitted) continue;
     Values seen{};
     const LowPoint from = scene_.low.at(one, scene_.samples.corners(one.triangle));
-    const bool hit = look(from, texel * 256 + i, seen);
-    if (fit_ && one.is_on()) fit_->add(band, row, x, i, directions_of(seen));
+    const bool hit = look(from, texel * 256 + i, seen, !is_own);
+    if (is_fitted) add_to_fit(seen, x, static_cast<int>(y), i);
     if (!is_own) continue;
     for (std::size_t c = 0; c < seen.size(); ++c) sum[c] += seen[c];
     missed |= !hit && one.is_on();
@@ -148,22 +146,28 @@ void Baker::bake_texel(const std::vector<TexelSample>& samples, std::size_t band
   }
 }
 
-std::array<float, Baker::kMostDirections> Baker::directions_of(const Values& values) const {
-  std::array<float, kMostDirections> found{};
+void Baker::add_to_fit(const Values& seen, int x, int y, std::size_t sample) {
+  std::array<float, 2 * TexelFit::kChannels> vectors{};  // there are two kinds of directions
   for (std::size_t i = 0; i < directions_.size(); ++i) {
-    std::copy_n(values.begin() + directions_[i].first_value, TexelFit::kChannels,
-                found.begin() + TexelFit::kChannels * i);
+    for (std::size_t c = 0; c < TexelFit::kChannels; ++c) {
+      vectors[TexelFit::kChannels * i + c] =
+          static_cast<float>(seen[directions_[i].first_value + c]);
+    }
   }
-  return found;
+  fit_->add(x, y, sample, vectors);
 }
 
-bool Baker::look(const LowPoint& from, std::size_t number, Values& values) const {
+bool Baker::look(const LowPoint& from, std::size_t number, Values& values,
+                 bool directions_alone) const {
   const HighPoint at = scene_.high.find(from.position, from.normal, scene_.result.distance);
   std::size_t next = 0;
   for (std::size_t m = 0; m < scene_.maps.size(); ++m) {
-    const std::array<double, kMostChannels> value = value_of(scene_.maps[m], from, at, number);
     const auto channels = static_cast<std::size_t>(scene_.result.maps[m].channels);
-    for (std::size_t c = 0; c < channels; ++c) values[next++] = static_cast<float>(value[c]);
+    if (!directions_alone || is_direction(scene_.maps[m])) {
+      const std::array<double, kMostChannels> value = value_of(scene_.maps[m], from, at, number);
+      std::copy_n(value.begin(), channels, values.begin() + static_cast<std::ptrdiff_t>(next));
+    }
+    next += channels;
   }
   return at.by_ray;
 }
@@ -173,13 +177,11 @@ std::array<double, kMostChannels> Baker::value_of(BakedMap map, const LowPoint& 
   const HighSurface& high = scene_.high;
   switch (map) {
     case BakedMap::object_normals:
-      return encoded(high.normal(at));
+      return values_of(high.normal(at));
     case BakedMap::tangent_normals:
-      return encoded(in_frame(high.normal(at), from));
-    case BakedMap::positions: {
-      const Vec3 p = (1 / scene_.result.extent) * (high.position(at) - scene_.result.low_corner);
-      return {p.x, p.y, p.z, 0};
-    }
+      return values_of(unit(in_frame(high.normal(at), from)));
+    case BakedMap::positions:
+      return values_of((1 / scene_.result.extent) * (high.position(at) - scene_.result.low_corner));
     case BakedMap::occlusion:
       return {high.openness(at, scene_.options.occlusion_rays, scene_.options.occlusion_distance,
                             scattered(number)),
@@ -193,18 +195,20 @@ std::array<double, kMostChannels> Baker::value_of(BakedMap map, const LowPoint& 
 
 void Baker::write(std::size_t texel, const Values& sum, int count) {
   reached_[texel] = 1;
-  const float* next = sum.data();
+  const double* next = sum.data();
   for (Texture& map : scene_.result.maps) {
     float* value = map.values.data() + texel * static_cast<std::size_t>(map.channels);
-    for (int c = 0; c < map.channels; ++c) *value++ = *next++ / static_cast<float>(count);
+    for (int c = 0; c < map.channels; ++c) *value++ = static_cast<float>(*next++ / count);
   }
 }
 
-void Baker::report(std::size_t done) {
+void Baker::report() {
+  const std::size_t done = ++done_;
   if (!scene_.options.progress) return;
   const std::unique_lock lock(mutex_, std::try_to_lock);
   if (!lock) return;
-  const auto all = double(scene_.samples.band_count() + scene_.bleed.band_count());
+  const std::size_t steps = fit_ ? directions_.size() * TexelFit::kSteps : 0;
+  const auto all = double(scene_.samples.band_count() + scene_.bleed.band_count() + steps);
   if (!scene_.options.progress(double(done) / all)) stopped_ = true;
 }
 

@@ -40,9 +40,8 @@ class Baker {
 
  private:
   static constexpr std::size_t kMapKinds = 5;
-  /// All channels of all maps, one after the other.
-  using Values = std::array<float, kMapKinds * kMostChannels>;
-  static constexpr std::size_t kMostDirections = 2 * TexelFit::kChannels;  // two kinds of maps
+  /// All channels of all maps, one after the other. Directions are vectors until the end.
+  using Values = std::array<double, kMapKinds * kMostChannels>;
 
   struct DirectionMap {
     std::size_t map, first_value;
@@ -52,20 +51,22 @@ class Baker {
   /// Of all samples together, what baking texel by texel leaves to do: directions. false: stopped.
   bool finish_directions(int threads);
   void bake_texel(const std::vector<TexelSample>& samples, std::size_t band, int row, int x);
-  [[nodiscard]] std::array<float, kMostDirections> directions_of(const Values& values) const;
   /// false: no ray met the high mesh. `number` differs from sample to sample.
-  bool look(const LowPoint& from, std::size_t number, Values& values) const;
+  bool look(const LowPoint& from, std::size_t number, Values& values,
+            bool directions_alone = false) const;
+  void add_to_fit(const Values& seen, int x, int y, std::size_t sample);
   [[nodiscard]] std::array<double, kMostChannels> value_of(BakedMap map, const LowPoint& from,
                                                            const HighPoint& at,
                                                            std::size_t number) const;
   /// The sum of as many samples.
   void write(std::size_t texel, const Values& sum, int count);
-  /// `done`: of all bands, each of which comes a second time for what lies beyond borders.
-  void report(std::size_t done);
+  /// One more of all steps: a band, a band of what lies beyond borders, or a step of the fit.
+  void report();
 
   BakeScene scene_;
   std::vector<DirectionMap> directions_;
   TexelMask reached_;
+  int bands_per_job_ = 1;
   std::optional<TexelFit> fit_;
   std::mutex mutex_;
   std::atomic<bool> stopped_{false};

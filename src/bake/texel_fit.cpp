@@ -1,6 +1,7 @@
 #include "bake/texel_fit.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "threads/parallel.h"
 
@@ -12,7 +13,10 @@ namespace {
 // the diagonal, the bounds are:
 constexpr double kLeastEigenvalue = TexelFit::kHold / (1 + TexelFit::kHold);
 constexpr double kMostEigenvalue = (4 + TexelFit::kHold) / (1 + TexelFit::kHold);
-constexpr int kSteps = 8;
+
+double off_centre_of(std::size_t sample, std::size_t across) {
+  return (double(sample) + 0.5) / double(across) - 0.5;
+}
 
 /// Of the texels left and right of a place on an axis: the first, and the share of the second.
 struct Between {
@@ -21,7 +25,7 @@ struct Between {
 };
 
 Between between(int texel, std::size_t sample, std::size_t across, int texels, bool wraps) {
-  const double off_centre = (double(sample) + 0.5) / double(across) - 0.5;
+  const double off_centre = off_centre_of(sample, across);
   const Between place =
       off_centre < 0 ? Between{texel - 1, off_centre + 1} : Between{texel, off_centre};
   const bool is_between = place.first >= 0 && place.first + 1 < texels;
@@ -33,7 +37,7 @@ Between between(int texel, std::size_t sample, std::size_t across, int texels, b
 
 /// What a step is made of: `keep` of the one before, and `scale` times what is left.
 struct TexelFit::Step {
-  std::vector<float>& all;  ///< per texel and channel of the map
+  std::vector<float>& steps;  ///< per texel and channel of the map
   std::size_t first_channel;
   float keep, scale;
 };
@@ -47,15 +51,16 @@ TexelFit::TexelFit(int width, int height, Wrap wrap, int across, int rows_per_ba
       across_(static_cast<std::size_t>(across)),
       channels_(kChannels * maps),
       rows_per_band_(rows_per_band),
-      bands_(static_cast<std::size_t>((height + rows_per_band - 1) / rows_per_band)),
+      bands_((height + rows_per_band - 1) / rows_per_band),
       products_(row_of(bands_, -1) * width_),
-      seen_(products_.size() * channels_) {}
+      seen_(products_.size() * channels_),
+      ranges_(width_ * static_cast<std::size_t>(height) * channels_),
+      counts_(width_ * static_cast<std::size_t>(height)) {}
 
-void TexelFit::add(std::size_t band, int row, int x, std::size_t number,
-                   std::span<const float> seen) {
-  const int first_row = rows_per_band_ * static_cast<int>(band);
-  const Between u = between(x, number % across_, across_, static_cast<int>(width_), wraps_u_);
-  const Between v = between(first_row + row, number / across_, across_, height_, wraps_v_);
+void TexelFit::add(int x, int y, std::size_t sample, std::span<const float> seen) {
+  const int band = y / rows_per_band_, first_row = rows_per_band_ * band;
+  const Between u = between(x, sample % across_, across_, static_cast<int>(width_), wraps_u_);
+  const Between v = between(y, sample / across_, across_, height_, wraps_v_);
   const std::size_t left = u.first < 0 ? width_ - 1 : static_cast<std::size_t>(u.first);
   const std::size_t top = row_of(band, v.first - first_row) * width_;
   const std::array<std::size_t, 4> texel{top + left, top + after(left), top + width_ + left,
@@ -76,6 +81,14 @@ void TexelFit::add(std::size_t band, int row, int x, std::size_t number,
   product(1, 3, below);
   product(0, 3, below_right);
   product(1, 2, below_left);
+  const std::size_t own = static_cast<std::size_t>(y) * width_ + static_cast<std::size_t>(x);
+  ++counts_[own];
+  Range* range = ranges_.data() + own * channels_;
+  for (std::size_t c = 0; c < channels_; ++c) {
+    const float value = std::clamp(127 * seen[c], -127.0F, 127.0F);
+    range[c].low = std::min(range[c].low, static_cast<std::int8_t>(std::floor(value)));
+    range[c].high = std::max(range[c].high, static_cast<std::int8_t>(std::ceil(value)));
+  }
 }
 
 void TexelFit::add_row(std::size_t from, std::size_t to) {
@@ -90,36 +103,39 @@ void TexelFit::add_row(std::size_t from, std::size_t to) {
 }
 
 void TexelFit::join_bands() {
-  for (std::size_t band = 0; band < bands_; ++band) {
-    const int first = rows_per_band_ * static_cast<int>(band);
+  for (int band = 0; band < bands_; ++band) {
+    const int first = rows_per_band_ * band;
     const int rows = std::min(rows_per_band_, height_ - first);
-    add_row(row_of(band, -1), row_of(first == 0 ? height_ - 1 : first - 1));
-    add_row(row_of(band, rows), row_of(first + rows == height_ ? 0 : first + rows));
+    add_row(row_of(band, -1), row_of(above(first)));
+    add_row(row_of(band, rows), row_of(under(first + rows - 1)));
   }
 }
 
-bool TexelFit::improve(std::size_t number, Texture& map, const TexelMask& mask, int threads,
+void TexelFit::hold_row(const Texture& map, std::size_t first_channel, int y) {
+  for (std::size_t x = 0; x < width_; ++x) {
+    const std::size_t texel = row_of(y) * width_ + x;
+    const float hold = held(products_[texel]);
+    float* seen = seen_.data() + texel * channels_ + first_channel;
+    const float* value = map.at(static_cast<int>(x), y);
+    for (std::size_t c = 0; c < kChannels; ++c) seen[c] += hold * value[c];
+  }
+}
+
+bool TexelFit::improve(std::size_t map_number, Texture& map, const TexelMask& mask, int threads,
                        const std::function<bool()>& go_on) {
   const auto for_rows = [&](auto job) {
     parallel_for(static_cast<std::size_t>(height_), threads,
                  [&](std::size_t y) { job(static_cast<int>(y)); });
   };
-  for_rows([&](int y) {
-    for (std::size_t x = 0; x < width_; ++x) {
-      const std::size_t texel = row_of(y) * width_ + x;
-      const float hold = held(products_[texel]);
-      float* seen = seen_.data() + texel * channels_ + kChannels * number;
-      const float* value = map.at(static_cast<int>(x), y);
-      for (std::size_t c = 0; c < kChannels; ++c) seen[c] += hold * value[c];
-    }
-  });
+  const std::size_t first_channel = kChannels * map_number;
+  for_rows([&](int y) { hold_row(map, first_channel, y); });
   constexpr double kMiddle = (kMostEigenvalue + kLeastEigenvalue) / 2;
   constexpr double kHalf = (kMostEigenvalue - kLeastEigenvalue) / 2;
   std::vector<float> steps(map.values.size());
   double ratio = kHalf / kMiddle, keep = 0, scale = 1 / kMiddle;
   for (int i = 0; i < kSteps; ++i) {
     if (!go_on()) return false;
-    const Step step{steps, kChannels * number, static_cast<float>(keep), static_cast<float>(scale)};
+    const Step step{steps, first_channel, static_cast<float>(keep), static_cast<float>(scale)};
     for_rows([&](int y) { find_steps(map, mask, y, step); });
     for_rows([&](int y) {
       const std::size_t begin = static_cast<std::size_t>(y) * width_ * kChannels;
@@ -130,21 +146,20 @@ bool TexelFit::improve(std::size_t number, Texture& map, const TexelMask& mask, 
     scale = 2 * next / kHalf;
     ratio = next;
   }
+  for_rows([&](int y) { cut_row(map, first_channel, mask, y); });
   return true;
 }
 
 void TexelFit::find_steps(const Texture& map, const TexelMask& mask, int y,
                           const Step& step) const {
-  const int above = y == 0 ? height_ - 1 : y - 1, under = y + 1 == height_ ? 0 : y + 1;
-  const auto line = [&](int of) { return map.values.data() + kChannels * width_ * of; };
-  const float *up = line(above), *here = line(y), *down = line(under);
+  const float *up = map.at(0, above(y)), *here = map.at(0, y), *down = map.at(0, under(y));
   const Products *products = products_.data() + row_of(y) * width_,
-                 *products_up = products_.data() + row_of(above) * width_;
+                 *products_up = products_.data() + row_of(above(y)) * width_;
   const float* seen = seen_.data() + row_of(y) * width_ * channels_ + step.first_channel;
   const std::size_t first = static_cast<std::size_t>(y) * width_;
   for (std::size_t x = 0; x < width_; ++x) {
     if (mask[first + x] == 0) continue;
-    const std::size_t w = x == 0 ? width_ - 1 : x - 1, e = after(x);
+    const std::size_t w = before(x), e = after(x);
     const Products& own = products[x];
     const float diagonal = own[self] + held(own);
     for (std::size_t c = 0; c < kChannels; ++c) {
@@ -156,8 +171,34 @@ void TexelFit::find_steps(const Texture& map, const TexelMask& mask, int y,
           own[below] * at(down, x) + own[below_right] * at(down, e) +
           own[below_left] * at(down, w) + products_up[x][below] * at(up, x) +
           products_up[w][below_right] * at(up, w) + products_up[e][below_left] * at(up, e);
-      float& by = step.all[(first + x) * kChannels + c];
+      float& by = step.steps[(first + x) * kChannels + c];
       by = step.keep * by + step.scale * (seen[x * channels_ + c] - read) / diagonal;
+    }
+  }
+}
+
+// At borders texels outside must be free to lead on what is inside.
+void TexelFit::cut_row(Texture& map, std::size_t first_channel, const TexelMask& mask,
+                       int y) const {
+  for (std::size_t x = 0; x < width_; ++x) {
+    if (mask[static_cast<std::size_t>(y) * width_ + x] == 0) continue;
+    std::array<Range, kChannels> around;
+    bool is_amid_charts = true;
+    for (const int row : {above(y), y, under(y)}) {
+      for (const std::size_t column : {before(x), x, after(x)}) {
+        const std::size_t texel = static_cast<std::size_t>(row) * width_ + column;
+        is_amid_charts = is_amid_charts && counts_[texel] == across_ * across_;
+        const Range* ranges = ranges_.data() + texel * channels_ + first_channel;
+        for (std::size_t c = 0; c < kChannels; ++c) {
+          around[c].low = std::min(around[c].low, ranges[c].low);
+          around[c].high = std::max(around[c].high, ranges[c].high);
+        }
+      }
+    }
+    if (!is_amid_charts) continue;
+    float* value = map.at(static_cast<int>(x), y);
+    for (std::size_t c = 0; c < kChannels; ++c) {
+      value[c] = std::clamp(value[c], float(around[c].low) / 127, float(around[c].high) / 127);
     }
   }
 }

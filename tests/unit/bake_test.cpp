@@ -62,6 +62,43 @@ TEST(Bake, ASheetOnItself) {
   }
 }
 
+TEST(Bake, FlatNormalsAreExactlySo) {
+  const Mesh low = mapped_sheet(1);
+  const BakedMap maps[] = {BakedMap::tangent_normals, BakedMap::positions};
+  for (int samples = 1; samples <= 16; ++samples) {
+    BakeOptions options = small(8);
+    options.samples = samples;
+    const auto result = bake(low, source_of(low), maps, options);
+    ASSERT_TRUE(result);
+    const Texture& map = result->maps[0];
+    for (std::size_t i = 0; i < map.values.size(); ++i) {
+      EXPECT_EQ(map.values[i], i % 3 == 2 ? 1.0F : 0.5F) << samples;  // 0.5 is a tie at 8 bits
+    }
+    // The mean of equal values is that value.
+    for (int i = 0; i < 64; ++i) EXPECT_EQ(result->maps[1].at(i % 8, i / 8)[2], 0);
+  }
+}
+
+TEST(Bake, NormalsThatCancelAreUp) {
+  // Two sheets that face apart where a texel sees both: half a texel each.
+  Mesh low = mapped_sheet(1);
+  Mesh high = test::sheet(2);
+  const BakedMap maps[] = {BakedMap::object_normals};
+  std::vector<Vec3> normals;
+  for (const std::uint32_t i : high.corner_position) {
+    normals.push_back({0, 0, high.positions[i].x < 0.6 ? 1.0 : -1.0});
+  }
+  BakeSource source = source_of(high);
+  source.corner_normals = normals;
+  for (const bool fit : {false, true}) {
+    BakeOptions options = small(9);
+    options.fit = fit;
+    const auto result = bake(low, source, maps, options);
+    ASSERT_TRUE(result);
+    for (int x = 0; x < 9; ++x) EXPECT_NEAR(length(direction_at(result->maps[0], x, 4)), 1, 1e-6);
+  }
+}
+
 TEST(Bake, ChartsGoOnOverTheBorder) {
   const Mesh low = mapped_sheet(2, {0.4, -0.7}), high = test::sheet(3);
   const BakedMap maps[] = {BakedMap::positions};

@@ -42,6 +42,7 @@ Baker::Baker(const BakeScene& scene) : scene_(scene), reached_(scene.result.insi
   }
   const BakeOptions& o = scene.options;
   if (!o.fit || o.samples == 1 || directions_.empty()) return;
+  fit_steps_ = directions_.size() * TexelFit::kSteps;
   constexpr int kLeastRows = 16;  // of a band of the fit, which has two more
   const int rows = scene.samples.rows_per_band();
   bands_per_job_ = (kLeastRows + rows - 1) / rows;
@@ -85,6 +86,7 @@ bool Baker::finish_directions(int threads) {
     if (fit_ && !fit_->improve(i, map, reached_, threads, go_on)) return false;
     encode_directions(map, threads);
   }
+  fit_.reset();
   return true;
 }
 
@@ -207,8 +209,7 @@ void Baker::report() {
   if (!scene_.options.progress) return;
   const std::unique_lock lock(mutex_, std::try_to_lock);
   if (!lock) return;
-  const std::size_t steps = fit_ ? directions_.size() * TexelFit::kSteps : 0;
-  const auto all = double(scene_.samples.band_count() + scene_.bleed.band_count() + steps);
+  const auto all = double(scene_.samples.band_count() + scene_.bleed.band_count() + fit_steps_);
   if (!scene_.options.progress(double(done) / all)) stopped_ = true;
 }
 

@@ -67,6 +67,7 @@ class Baker {
   std::vector<DirectionMap> directions_;
   TexelMask reached_;
   int bands_per_job_ = 1;
+  std::size_t fit_steps_ = 0;
   std::optional<TexelFit> fit_;
   std::mutex mutex_;
   std::atomic<bool> stopped_{false};

@@ -89,7 +89,7 @@ def mean_of(entries):
 
 
 def cell(value):
-    return "-" if value is None else f"{value:.2f}"
+    return "-" if value is None else f"{value:.3f}"
 
 
 def main():

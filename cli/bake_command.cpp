@@ -54,8 +54,6 @@ Status resolve(const CLI::App& app, BakeArguments& a) {
       {"--high-texcoord", !color, "no colour is baked", "add --map color"},
       {"--color-from", !color, "no colour is baked", "add --map color"},
       {"--no-fit", !normals, "no normals are baked", "leave it out"},
-      {"--no-fit", a.options.samples == 1, "with one sample there is nothing to fit",
-       "leave it out"},
       {"--occlusion-rays", !occlusion, "no occlusion is baked", "add --map occlusion"},
       {"--occlusion-distance", !occlusion, "no occlusion is baked", "add --map occlusion"},
   };
@@ -244,17 +242,18 @@ Command make_bake_command(CLI::App& parser) {
              "Axes on which the atlas repeats, as it was packed");
   add_bits(app, a.bits);
   add_number(app, "--samples", a.options.samples, {1, 16},
-             "What a texel looks at: so many places, squared");
-  app.add_flag("--no-fit", a.no_fit,
-               "Texels of normals are the mean of their samples, as all others are; else what "
-               "comes nearest to all samples when it is filtered");
+             "Places that each texel looks at, squared");
+  app.add_flag(
+      "--no-fit", a.no_fit,
+      "Do not fit normals to how they are filtered: each texel is the mean of its samples, "
+      "which is softer");
   add_bleed(app, a.options.bleed);
   add_number(app, "--distance", a.options.distance, {0, 1e30},
              "How far from the low model the high one is looked for, along the normal and back, in "
-             "units of the files; 0: twice the largest distance between them");
+             "units of the files; 0: twice the largest distance between them, or a little");
   add_number(app, "--hard-edges", a.hard_edges, {0, 180, "degrees"},
-             "The low model is smooth but for edges whose faces differ by more. Default: the "
-             "normals in its file, or smooth everywhere");
+             "The low model is smooth but for edges whose faces differ by more, and has to be "
+             "rendered so. Default: the normals in its file, or smooth everywhere");
   add_number(app, "--high-hard-edges", a.high_hard_edges, {0, 180, "degrees"},
              "The same of the high model; 0: its faces are flat");
   app.add_option("--color-from", a.color,

@@ -92,7 +92,7 @@ class Bake(support.CommandTest):
         self.assertIs(self.bake("--resolution", 8, "--no-fit")["fit"], False)
         same = ("bake", "low.obj", "high.obj", "-o", "n.png", "--no-fit")
         self.refuse(2, ("--no-fit", "no normals"), *same, "--map", "position")
-        self.refuse(2, ("--no-fit", "one sample"), *same, "--samples", "1")
+        self.assertIs(self.bake("--resolution", 8, "--no-fit", "--samples", 1)["fit"], False)
 
     def test_several_maps_in_one_run(self):
         report = self.bake("--resolution", 8, "--also", "occlusion=ao.png", "--also",

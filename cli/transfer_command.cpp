@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <filesystem>
 
 #include "common.h"
@@ -151,8 +150,8 @@ void say_result(const TransferArguments& a, const std::vector<NewAtlas>& atlases
                    : (a.unwrap ? ": a new chart has one scale, its faces had several" : ""));
   }
   constexpr double kMuchMore = 2;
-  const double growth = static_cast<double>(totals.texels) /
-                        static_cast<double>(std::max<std::size_t>(1, totals.texels_before));
+  const double growth =
+      static_cast<double>(totals.texels) / static_cast<double>(totals.texels_before);
   if (growth > kMuchMore) {
     say("{}: note: {:.1f} times as many texels as before; --resolution sets a smaller size\n",
         a.pack.input, growth);

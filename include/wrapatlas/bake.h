@@ -35,7 +35,7 @@ struct BakeOptions {
   bool v_points_down = false;       ///< of the low mesh's UVs, as Model has it
   int samples = 2;                  ///< of a texel, squared; 1 to 16
   bool fit = true;  ///< texels of normals, if samples > 1, are those that come nearest to all
-                    ///< samples when filtered, for some 60 more bytes a texel and map of normals;
+                    ///< samples when filtered, for some 55 more bytes a texel and map of normals;
                     ///< else each is the mean of its own, as those of all other maps are
   /// Texels by which charts go on over their borders, along the low mesh's surface unfolded, for
   /// mip levels to see; all beyond is dilated.

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <random>
 
+#include "support/dense_solve.h"
+
 namespace wrapatlas {
 namespace {
 
@@ -67,24 +69,6 @@ std::vector<double> weights_of(const Seen& seen, const Case& c) {
   return weights;
 }
 
-/// Solves in place, by Gauss. `a` is positive definite.
-std::vector<double> solve(std::vector<std::vector<double>> a, std::vector<double> b) {
-  const std::size_t n = b.size();
-  for (std::size_t i = 0; i < n; ++i) {
-    for (std::size_t j = i + 1; j < n; ++j) {
-      const double times = a[j][i] / a[i][i];
-      if (times == 0) continue;
-      for (std::size_t k = i; k < n; ++k) a[j][k] -= times * a[i][k];
-      b[j] -= times * b[i];
-    }
-  }
-  for (std::size_t i = n; i-- > 0;) {
-    for (std::size_t k = i + 1; k < n; ++k) b[i] -= a[i][k] * b[k];
-    b[i] /= a[i][i];
-  }
-  return b;
-}
-
 /// One channel of all texels of a map.
 struct Channel {
   std::size_t map, number;
@@ -101,7 +85,7 @@ struct Channel {
 std::vector<double> best_texels(const std::vector<Seen>& samples, const Case& c,
                                 const Channel& channel, const TexelMask& mask) {
   const std::size_t n = channel.start.size();
-  std::vector<std::vector<double>> a(n, std::vector<double>(n));
+  test::Matrix a(n, std::vector<double>(n));
   std::vector<double> b(n);
   for (const Seen& seen : samples) {
     const std::vector<double> weights = weights_of(seen, c);
@@ -127,7 +111,7 @@ std::vector<double> best_texels(const std::vector<Seen>& samples, const Case& c,
       a[j][i] = 0;
     }
   }
-  return solve(std::move(a), std::move(b));
+  return test::solve_slowly(std::move(a), std::move(b));
 }
 
 /// All in place, but for improve().
